@@ -12,8 +12,9 @@ namespace trace {
 /// the thread throws.
 Real settleExposure(const World& world, Settings& settings);
 
-/// The stops by which the mean level of the picture becomes that of a photograph; 0 of a black one. Places
-/// without light, as those of a black background, do not count.
+/// The stops by which the mean level of the picture becomes that of a photograph, or fewer where bright parts
+/// would lose their colours; 0 of a black one. Places without light, as those of a black background, do not
+/// count.
 Real exposureFor(const Picture& picture, const Development& development);
 
 }  // namespace trace

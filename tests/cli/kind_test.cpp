@@ -1,9 +1,12 @@
 // Scenes that leave things to Trace: files of the kind `Trace 1`, bare meshes, and --quality.
 #include <gtest/gtest.h>
 
+#include "app/auto_exposure.h"
+#include "app/session.h"
 #include "formats/format.h"
 #include "formats/kind_defaults.h"
 #include "image/codec.h"
+#include "image/development.h"
 #include "image/srgb.h"
 #include "program.h"
 #include "scene/quality.h"
@@ -79,13 +82,46 @@ TEST_F(Kind, ABareMeshIsAPictureWorthLookingAt) {
   }
 }
 
-TEST(KindDefaults, ExposureMakesUpForFaintAndForStrongLight) {
-  for (const char* color : {"(0.001, 0.001, 0.001)", "(1, 1, 1)", "(5000, 5000, 5000)"}) {
-    Scene scene =
-        read(std::string("Trace 1\nsphere { }\ndirectional_light { direction = (0.2, -1, -1); color = ") +
-             color + " }\n");
-    EXPECT_EQ(settingsFor(scene, {scene.choices}).autoExposure, true);
-  }
+TEST(AutomaticExposure, MakesUpForFaintAndForStrongLight) {
+  const auto stops = [](const std::string& color) {
+    Scene scene = read(
+        "Trace 1\nsettings { width = 24; spp = 1 }\nsphere { }\n"
+        "directional_light { direction = (0.2, -1, -1); color = " +
+        color + " }\n");
+    const Settings settings = settingsFor(scene, {scene.choices});
+    EXPECT_TRUE(settings.autoExposure);
+    Session session;
+    session.open(std::move(scene), settings);
+    session.build();
+    EXPECT_FALSE(session.settings().autoExposure);
+    EXPECT_EQ(session.settings().exposure, session.measuredExposure());
+    return session.measuredExposure();
+  };
+  const Real one = stops("(1, 1, 1)");
+  EXPECT_NEAR(stops("(0.0009765625, 0.0009765625, 0.0009765625)"), one + 10, 0.011);
+  EXPECT_NEAR(stops("(1024, 1024, 1024)"), one - 10, 0.011);
+}
+
+TEST(AutomaticExposure, BringsTheMeanToTheMiddleAndKeepsBrightParts) {
+  Development development;
+  development.transfer = Transfer::srgb;
+  development.tone = Tone::filmic;
+  const auto shown = [&](const Color& color, Real stops) {
+    Development with = development;
+    with.exposure = stops;
+    return luminanceOf(developed(color, with));
+  };
+  Picture picture(20, 10);
+  for (Color& c : picture.pixels) c = Color(0.01);
+  EXPECT_NEAR(shown(Color(0.01), exposureFor(picture, development)), 0.52, 0.01);
+  for (int x = 0; x < 20; ++x) picture.at(x, 4) = Color{2, 0.2, 0.2};  // a tenth, red
+  const Real stops = exposureFor(picture, development);
+  EXPECT_NEAR(shown(Color{2, 0.2, 0.2}, stops), 0.85, 0.02);
+  EXPECT_LT(shown(Color(0.01), stops), 0.5);
+  for (Color& c : picture.pixels) c = Color(0);
+  EXPECT_EQ(exposureFor(picture, development), 0);
+  picture.at(3, 3) = Color(0.1);  // on black, what is seen counts
+  EXPECT_NEAR(shown(Color(0.1), exposureFor(picture, development)), 0.52, 0.01);
 }
 
 TEST(KindDefaults, LeaveFilesOfTheCoursesAsTheyAre) {
@@ -101,6 +137,17 @@ TEST(KindDefaults, LeaveFilesOfTheCoursesAsTheyAre) {
   EXPECT_EQ(std::get<PointLight>(scene.lights.at(0).light).color, Color(1));
   EXPECT_EQ(scene.materials.at(0), Material{});
   EXPECT_EQ(scene.objects.at(1).worldFromObject, Affine{});
+}
+
+TEST_F(Kind, ConvertedToTheCoursesFormatItIsTheSamePicture) {
+  writeFile(path("kind.ray"),
+            "Trace 1\nplane { material = { library = oak } }\n"
+            "translate(0, 1, 0) { rotate x -90 { cylinder { material = { library = gold } } } }\n");
+  EXPECT_EQ(run({"convert", "kind.ray", "plain.ray"}).code, 0);
+  EXPECT_TRUE(readFile(path("plain.ray")).starts_with("SBT-raytracer"));
+  for (const std::string name : {"kind", "plain"})
+    EXPECT_EQ(run({name + ".ray", name + ".exr", "-w", "24", "--quality", "draft"}).code, 0);
+  EXPECT_EQ(readPicture(path("kind.exr")), readPicture(path("plain.exr")));
 }
 
 TEST(KindDefaults, AnglesAreInDegrees) {
@@ -131,6 +178,7 @@ TEST(KindDefaults, UnknownWordsAreErrors) {
   const std::string word = errorOf("Trace 1\nspheer { }");
   EXPECT_NE(word.find("did you mean \"sphere\""), std::string::npos) << word;
   EXPECT_NE(errorOf("Trace 2\nsphere { }").find("expected 1 after Trace"), std::string::npos);
+  EXPECT_NE(errorOf("Trace\r\nsphere { }").find("expected 1 after Trace"), std::string::npos);
   EXPECT_EQ(errorOf("SBT-raytracer 1.0\nsphere { radios = 3; }"), "");
 }
 

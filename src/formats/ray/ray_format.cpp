@@ -45,7 +45,8 @@ constexpr double kNewestVersion = 1.1;
 /// Does the text begin with the word, as a whole?
 bool beginsWith(std::string_view text, std::string_view word) {
   const std::string_view rest = text.substr(std::min(word.size(), text.size()));
-  return sameWord(text.substr(0, word.size()), word) && (rest.empty() || rest[0] == ' ' || rest[0] == '\t');
+  return sameWord(text.substr(0, word.size()), word) &&
+         (rest.empty() || std::string_view(" \t\r\n").find(rest[0]) != rest.npos);
 }
 
 // --- the reader -----------------------------------------------------------------------------------------
