@@ -8,9 +8,10 @@
 #include "base/read_scope.h"
 #include "base/text.h"
 #include "formats/format.h"
+#include "formats/kind_defaults.h"
 #include "formats/ray/ray_format.h"
 #include "formats/ray/ray_patch.h"
-#include "scene/picture_size.h"
+#include "scene/quality.h"
 
 namespace trace {
 namespace {
@@ -77,7 +78,9 @@ Document::Reading Document::read(const Source& source) {
     reading.messages = {};
     text.time = time;
     SceneTime moment(time);
-    reading.scene = std::make_shared<const Scene>(readScene(source.file, bytes, reading.messages, moment));
+    Scene scene = readScene(source.file, bytes, reading.messages, moment);
+    completeBareMesh(scene);
+    reading.scene = std::make_shared<const Scene>(std::move(scene));
     reading.changesWithTime = moment.changesScene();
     reading.messages.throwIfFailed();
     return resolve({reading.scene->choices, source.commandLine, source.choices}).time;
@@ -97,7 +100,7 @@ Document::Reading Document::read(const Source& source) {
 void Document::take(const Reading& reading, bool anew) {
   if (anew) {
     moments_.clear();
-    choicesOnDisk_ = ofTheScene(settingsFor(reading.scene->camera, {reading.scene->choices}));
+    choicesOnDisk_ = ofTheScene(settingsFor(*reading.scene, {reading.scene->choices}));
   }
   moments_.insert(reading.scene);
   onDisk_ = reading.scene;
@@ -122,8 +125,8 @@ void Document::open(const std::string& file, std::vector<Choice> commandLine) {
 
 void Document::settle() {
   const Edition& edition = editions_[current_];
-  settings_ = settingsFor(edition.scene->camera, {edition.scene->choices, commandLine_, edition.choices});
-  choices_ = ofTheScene(settingsFor(edition.scene->camera, {edition.scene->choices, edition.choices}));
+  settings_ = settingsFor(*edition.scene, {edition.scene->choices, commandLine_, edition.choices});
+  choices_ = ofTheScene(settingsFor(*edition.scene, {edition.scene->choices, edition.choices}));
   ++revision_;
 }
 

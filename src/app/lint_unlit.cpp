@@ -17,9 +17,11 @@ void causticsMissing(const LintScene& s, Findings& findings) {
   };
   const auto missing = missingCaustic(s.scene, s.settings, s.world, false, counts);
   if (!missing) return;
-  warn(findings, "caustics-missing", s.scene.lights[missing->light].place,
-       "what " + quoted(s, missing->object) +
-           " throws of this light on other things is missing: " + missing->why,
+  const Place& place = s.scene.lights[missing->light].place;
+  warn(findings, "caustics-missing", place,
+       "what " + quoted(s, missing->object) + " throws of " +
+           (place.line > 0 ? "this light" : "the light that Trace chose") +
+           " on other things is missing: " + missing->why,
        missing->hint);
 }
 

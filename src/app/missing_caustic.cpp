@@ -70,6 +70,9 @@ std::optional<MissingCaustic> missingCaustic(
     if (met && !direct && !straight) continue;
     for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
       if (!gathersLight(world, object, byGlassAlone || (met && !direct)) || !counts(i, object)) continue;
+      const bool isFew = settings.quality == Quality::draft || settings.quality == Quality::good;
+      if (isFew && !met && gathersLight(world, object, true))
+        return MissingCaustic{i, object, reasonOf(settings, light), "--quality final shows such caustics"};
       std::string hint =
           "--integrator bdpt or photon shows such caustics, and so does --integrator whitted --caustics "
           "200000";

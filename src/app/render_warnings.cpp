@@ -387,8 +387,10 @@ void warnOfMissingCaustics(const Scene& scene, const Settings& settings, const W
         return !world.shapeOf(object).empty() && shinesOn(scene, world, light, object);
       });
   if (!missing) return;
-  messages.warn(scene.lights[missing->light].place,
-                "of this light, what " + objectName(scene, missing->object) +
+  const Place& place = scene.lights[missing->light].place;
+  messages.warn(place,
+                (place.line > 0 ? "of this light, what " : "of the light that Trace chose, what ") +
+                    objectName(scene, missing->object) +
                     " throws on other things is missing (its caustic): " + missing->why,
                 missing->hint);
 }

@@ -4,15 +4,17 @@
 #include <ctime>
 #include <fstream>
 
+#include "app/auto_exposure.h"
 #include "app/render_warnings.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/read_scope.h"
 #include "base/text.h"
+#include "formats/kind_defaults.h"
 #include "image/denoise.h"
 #include "render/passes.h"
 #include "render/photon_map.h"
-#include "scene/picture_size.h"
+#include "scene/quality.h"
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <unistd.h>
@@ -122,7 +124,8 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   const std::string bytes = readFile(file);
   SceneAtMoment read = readSceneAtItsMoment(file, bytes, choices, messages_);
   scene_ = std::move(read.scene);
-  settings_ = settingsFor(scene_.camera, {scene_.choices, choices});
+  completeBareMesh(scene_);
+  settings_ = settingsFor(scene_, {scene_.choices, choices});
   readSurroundings(scene_, settings_, pictureLimits(settings_), messages_);
   sceneAt_ = nullptr;
   if (read.changesWithTime)
@@ -165,6 +168,7 @@ void Session::build(const Session* before) {
   warnOfWrongLinks(scene_, messages_);
   warnOfMissingCaustics(scene_, settings_, *world_, messages_);
   messages_.throwIfFailed(strict_);
+  measuredExposure_ = settleExposure(*world_, settings_);
   film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
   phases_.push_back(watch.stop("build"));
 }

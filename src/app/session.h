@@ -105,6 +105,9 @@ class Session {
 
   const std::vector<Phase>& phases() const { return phases_; }
 
+  /// What automatic exposure added to the settings' own, in stops; after build().
+  Real measuredExposure() const { return measuredExposure_; }
+
  private:
   void buildMoments();
 
@@ -122,6 +125,7 @@ class Session {
   std::unique_ptr<Film> film_;
   Job job_;
   std::vector<Phase> phases_;
+  Real measuredExposure_ = 0;
 };
 
 /// Bytes of memory the machine has for this process: the physical memory, or a smaller control-group limit.

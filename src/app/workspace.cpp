@@ -12,7 +12,7 @@
 #include "base/text.h"
 #include "formats/ray/ray_names.h"
 #include "image/codec.h"
-#include "scene/picture_size.h"
+#include "scene/quality.h"
 
 namespace trace {
 namespace {
@@ -209,7 +209,7 @@ void Workspace::takeReread() {
 Settings Workspace::chosenSettings() const {
   if (!wanted_) return document.settings();
   const Document::Source source = document.source(*wanted_);
-  return settingsFor(document.scene().camera, {document.scene().choices, source.commandLine, source.choices});
+  return settingsFor(document.scene(), {document.scene().choices, source.commandLine, source.choices});
 }
 
 void Workspace::undo() {

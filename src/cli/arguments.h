@@ -30,6 +30,10 @@ enum class Verb {
   grade,
   convert,
   texture,
+  materials,
+  newScene,
+  format,
+  expand,
   stereogram,
   features,
   selftest,
@@ -72,10 +76,12 @@ struct Arguments {
   std::string pixel;                  ///< explain: --pixel, as typed
   std::string sample;                 ///< explain: --sample, as typed
   bool lightImage = false;            ///< explain: --light-image
+  bool inPlace = false;               ///< format: --in-place
   bool markdown = false;              ///< features: as docs/options.md; convert: docs/formats.md
   std::string examples;               ///< features: --examples, the folder of the scenes
-  std::array<int, 2> size{256, 256};  ///< texture: --size, width and height
-  std::optional<double> across;       ///< texture: --across, steps of the pattern
+  /// texture and materials: --size, width and height
+  std::optional<std::array<int, 2>> size{};
+  std::optional<double> across;  ///< texture: --across, steps of the pattern
   // stereogram
   std::string pattern;           ///< a picture, repeated instead of dots
   double dotsPerInch = 72;       ///< of the screen

@@ -12,21 +12,23 @@ namespace {
 
 using Takes = Flag::Takes;
 constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff}, kGrade{Verb::grade},
-    kConvert{Verb::convert}, kTexture{Verb::texture}, kStereogram{Verb::stereogram},
-    kComparing{Verb::diff, Verb::grade}, kOfScenes{Verb::render, Verb::info,  Verb::bench,     Verb::explain,
-                                                   Verb::lint,   Verb::grade, Verb::stereogram},
+    kConvert{Verb::convert}, kStereogram{Verb::stereogram}, kComparing{Verb::diff, Verb::grade},
+    kOfScenes{Verb::render, Verb::info,  Verb::bench,     Verb::explain,
+              Verb::lint,   Verb::grade, Verb::stereogram},
     kStrict{Verb::render, Verb::info,  Verb::bench,   Verb::explain,
             Verb::lint,   Verb::grade, Verb::convert, Verb::stereogram},
-    kWorking{Verb::render, Verb::info,  Verb::bench,   Verb::explain, Verb::lint,
-             Verb::diff,   Verb::grade, Verb::convert, Verb::texture, Verb::stereogram},
-    kWithOutput{Verb::render,  Verb::explain,    Verb::lint,     Verb::diff,    Verb::grade,
-                Verb::texture, Verb::stereogram, Verb::features, Verb::selftest},
-    kReading{Verb::render, Verb::gui,   Verb::info,    Verb::bench,   Verb::explain,
-             Verb::lint,   Verb::grade, Verb::convert, Verb::texture, Verb::stereogram},
+    kWorking{Verb::render, Verb::info,    Verb::bench,   Verb::explain,   Verb::lint,   Verb::diff,
+             Verb::grade,  Verb::convert, Verb::texture, Verb::materials, Verb::expand, Verb::stereogram},
+    kWithOutput{Verb::render, Verb::explain,    Verb::lint,      Verb::diff,
+                Verb::grade,  Verb::texture,    Verb::materials, Verb::format,
+                Verb::expand, Verb::stereogram, Verb::features,  Verb::selftest},
+    kReading{Verb::render, Verb::gui,     Verb::info,    Verb::bench,  Verb::explain,   Verb::lint,
+             Verb::grade,  Verb::convert, Verb::texture, Verb::expand, Verb::stereogram},
     kAnswering{Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::diff, Verb::grade},
-    kEverywhere{Verb::render,     Verb::gui,      Verb::info,     Verb::bench,   Verb::explain,
-                Verb::lint,       Verb::diff,     Verb::grade,    Verb::convert, Verb::texture,
-                Verb::stereogram, Verb::features, Verb::selftest, Verb::help};
+    kEverywhere{Verb::render, Verb::gui,    Verb::info,       Verb::bench,    Verb::explain,   Verb::lint,
+                Verb::diff,   Verb::grade,  Verb::convert,    Verb::texture,  Verb::materials, Verb::newScene,
+                Verb::format, Verb::expand, Verb::stereogram, Verb::features, Verb::selftest,  Verb::help};
+constexpr Verbs kTexture{Verb::texture};
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -162,8 +164,8 @@ void setSize(Arguments& arguments, std::string_view value) {
   if (by == std::string_view::npos)
     throw Error(Fault::usage,
                 "--size: expected WIDTHxHEIGHT, as in 512x256, found \"" + std::string(value) + "\"");
-  arguments.size = {wholeNumber("size", value.substr(0, by), 1, 32768),
-                    wholeNumber("size", value.substr(by + 1), 1, 32768)};
+  arguments.size = std::array{wholeNumber("size", value.substr(0, by), 1, 32768),
+                              wholeNumber("size", value.substr(by + 1), 1, 32768)};
 }
 
 void setOutput(Arguments& arguments, std::string_view value) {
@@ -249,7 +251,15 @@ std::span<const Flag> flags() {
       Flag{"picture", 0, Takes::value, "FILE", "", kConvert, false,
            "a picture on what --revolve makes: once around, and once along the profile",
            [](Arguments& a, std::string_view value) { a.conversion.picture = value; }},
-      Flag{"size", 0, Takes::value, "WxH", "", kTexture, true, "of the picture; default 256x256", setSize},
+      Flag{"size",
+           0,
+           Takes::value,
+           "WxH",
+           "",
+           {Verb::texture, Verb::materials},
+           true,
+           "of the picture; default 256x256, and 960x600 for all materials",
+           setSize},
       Flag{"across", 0, Takes::value, "X", "", kTexture, true,
            "how many steps of the pattern the picture is wide; default 4 for a kind, 1 for a texture of a "
            "scene",
@@ -334,6 +344,15 @@ std::span<const Flag> flags() {
       Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", kAnswering, true,
            "how the answer looks; default text. obj, svg and png are drawings of rays, of ray explain only",
            [](Arguments& a, std::string_view value) { a.format = value; }},  // each command knows its own
+      Flag{"in-place",
+           'i',
+           Takes::nothing,
+           "",
+           "",
+           {Verb::format},
+           false,
+           "write the tidied text back to the file that it was read from",
+           [](Arguments& a, std::string_view) { a.inPlace = true; }},
       Flag{"markdown",
            0,
            Takes::nothing,
@@ -373,7 +392,8 @@ bool takesOptions(Verb command) { return command == Verb::gui || kOfScenes.has(c
 
 bool takesOption(Verb command, const Option& option) {
   const bool limit = option.name == "time-limit" || option.name == "max-memory";
-  return takesOptions(command) || (limit && kWorking.has(command));
+  const bool moment = option.name == "time" && command == Verb::expand;
+  return takesOptions(command) || (limit && kWorking.has(command)) || moment;
 }
 
 std::string_view enabledValue(const Option& option) {

@@ -22,6 +22,15 @@ void open(Session& session, const Arguments& arguments, int frame) {
   session.open(arguments.files[0], choices, arguments.strict);
 }
 
+/// One exposure for all frames, where it is automatic: that of the first one.
+std::vector<Choice> exposureOfAll(const Arguments& arguments) {
+  Session first;
+  open(first, arguments, arguments.frames.front());
+  if (!first.settings().autoExposure) return {};
+  first.build();
+  return {{"auto-exposure", "off", {}}, {"exposure", toText(first.settings().exposure), {}}};
+}
+
 /// Is every file of the frame there, made with these settings?
 bool isThere(const Arguments& arguments, int frame, const std::string& picture) {
   std::error_code ignored;
@@ -72,12 +81,13 @@ std::string frameName(const std::string& pattern, int frame) {
   return pattern.substr(0, first) + number + pattern.substr(last + 1);
 }
 
-int renderFrames(const Arguments& arguments, const std::string& pattern, const Console& console) {
+int renderFrames(const Arguments& given, const std::string& pattern, const Console& console) {
   const auto start = std::chrono::steady_clock::now();
   const auto elapsed = [&] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   pictureFormatFor(pattern);
+  Arguments arguments = given;
   for (const Choice& choice : arguments.choices)
     if (choice.option == "time")
       throw Error(Fault::usage, "--frames and --time cannot be given together",
@@ -103,6 +113,7 @@ int renderFrames(const Arguments& arguments, const std::string& pattern, const C
                                      " files cannot say how they were made, so frames that are there are "
                                      "rendered again; those of .png are skipped");
   Signals signals;
+  for (Choice& choice : exposureOfAll(arguments)) arguments.choices.push_back(std::move(choice));
   std::vector<int> missing;
   for (int frame : arguments.frames)
     if (!isThere(arguments, frame, frameName(pattern, frame))) missing.push_back(frame);

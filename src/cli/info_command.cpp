@@ -79,6 +79,8 @@ std::string infoText(const Facts& facts) {
           chosenOptionsText(facts.conventions);
   text +=
       "options changed (" + std::to_string(facts.changed.size()) + ")\n" + chosenOptionsText(facts.changed);
+  if (const std::string chosen = chosenText(scene, facts.session.settings(), 0); !chosen.empty())
+    text += "left to Trace\n  " + chosen + "\n";
   if (!scene.unrendered.empty()) {
     text += "not rendered yet (" + std::to_string(scene.unrendered.size()) + ")\n";
     for (const Unrendered& left : scene.unrendered) text += line(left.kind, placeText(left.place));
@@ -122,6 +124,8 @@ std::string infoJson(const Facts& facts) {
   json["picture"] = {{"width", size.width}, {"height", size.height}};
   json["conventions"] = optionList(facts.conventions);
   json["changed"] = optionList(facts.changed);
+  if (const std::string chosen = chosenText(scene, facts.session.settings(), 0); !chosen.empty())
+    json["left_to_trace"] = chosen;
   json["unrendered"] = Json::list();
   for (const Unrendered& left : scene.unrendered)
     json["unrendered"].add({{"kind", left.kind}, {"place", placeText(left.place)}});

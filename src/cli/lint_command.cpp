@@ -1,6 +1,7 @@
 // ray lint SCENE: what is likely a mistake, for people or as JSON. Schema: docs/lint.md.
 #include <array>
 
+#include "app/auto_exposure.h"
 #include "app/lint.h"
 #include "app/render_warnings.h"
 #include "app/session.h"
@@ -8,6 +9,7 @@
 #include "base/printable.h"
 #include "cli/commands.h"
 #include "cli/json.h"
+#include "cli/scene_facts.h"
 
 namespace trace::cli {
 namespace {
@@ -57,9 +59,13 @@ int lintCommand(const Arguments& arguments, const Console& console) {
   Messages messages = session.messages();
   const World world = compile(session.scene(), session.settings(), messages);
   warnOfSettings(session.scene(), session.settings(), world, messages);
-  const std::vector<LintFinding> findings = lint(session.scene(), session.settings(), world, messages.all());
+  Settings settings = session.settings();
+  const Real exposure = settleExposure(world, settings);
+  const std::vector<LintFinding> findings = lint(session.scene(), settings, world, messages.all());
   const std::string& scene = session.scene().file;
   const std::string text = json ? lintJson(scene, findings) : lintText(scene, findings);
+  if (const std::string chosen = chosenText(session.scene(), settings, exposure); !chosen.empty())
+    console.line(LogLevel::info, "note: " + chosen);
   if (arguments.output.empty()) {
     printResult(text);
   } else {

@@ -125,11 +125,13 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   std::string cleaned;
   if (const auto change = files.denoiseChange())
     cleaned = "; --denoise changed it by " + numberText(*change) + " levels on the average";
+  std::string chosen = chosenText(session.scene(), session.settings(), session.measuredExposure());
+  if (!chosen.empty()) chosen.insert(0, "; ");
   const std::string passes = saved.finish == LastSteps::all ? andPasses(session.settings()) : "";
   console.last(code == kDone, stopped + "wrote " + saved.path + passes + " (" +
                                   pictureText(session, session.job().fraction()) + ") in " +
                                   durationText(seconds) + whereText(saved, output) + cleaned +
-                                  removedText(files) + goesOn);
+                                  removedText(files) + goesOn + chosen);
   return code;
 }
 

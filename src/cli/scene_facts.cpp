@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "base/match.h"
+#include "base/text.h"
 #include "geometry/mesh/mesh.h"
+#include "scene/quality.h"
 
 namespace trace::cli {
 namespace {
@@ -59,6 +61,17 @@ std::vector<OptionFact> optionsOf(std::string_view group, const Scene& scene, co
     if (option.group == group)
       facts.push_back({std::string(option.name), option.get(settings), chooser(option, scene, commandLine)});
   return facts;
+}
+
+std::string chosenText(const Scene& scene, const Settings& settings, Real measuredExposure) {
+  std::string chosen;
+  const auto add = [&](const std::string& what) {
+    chosen += (chosen.empty() ? "Trace chose " : ", ") + what;
+  };
+  for (const std::string& what : scene.kindDefaults) add(what);
+  if (measuredExposure != 0) add("exposure " + toText(measuredExposure) + " stops");
+  const std::string quality = qualityText(settings);
+  return chosen + (chosen.empty() || quality.empty() ? "" : "; ") + quality;
 }
 
 std::vector<OptionFact> changedOptions(const Scene& scene, const Settings& settings,

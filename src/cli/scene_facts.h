@@ -31,4 +31,8 @@ std::vector<OptionFact> optionsOf(std::string_view group, const Scene& scene, co
 std::vector<OptionFact> changedOptions(const Scene& scene, const Settings& settings,
                                        std::span<const Choice> commandLine);
 
+/// What Trace chose where the file and the command line left it open: "Trace chose a sky and a sun, exposure
+/// 0.8 stops; quality good: path, ..."; "" where it chose nothing.
+std::string chosenText(const Scene& scene, const Settings& settings, Real measuredExposure);
+
 }  // namespace trace::cli

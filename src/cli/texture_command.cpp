@@ -154,7 +154,7 @@ int textureCommand(const Arguments& arguments, const Console& console) {
   if (arguments.files.size() != 1)
     throw Error(Fault::usage,
                 "ray texture: expected one texture, found " + std::to_string(arguments.files.size()));
-  const auto [width, height] = arguments.size;
+  const auto [width, height] = arguments.size.value_or(std::array{256, 256});
   if (!arguments.output.empty()) checkEncodable(pictureFormatFor(arguments.output), width, height);
   const std::string& named = arguments.files.front();
   const std::size_t colon = named.rfind(':');

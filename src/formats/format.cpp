@@ -31,13 +31,14 @@ namespace trace {
 namespace {
 
 using Suffixes = std::array<std::string_view, 1>;
+constexpr std::array<std::string_view, 2> kScene{".ray", ".tr"};
 constexpr Suffixes kRay{".ray"}, kOut{".out"}, kPly{".ply"}, kObj{".obj"}, kOff{".off"}, kStl{".stl"};
 constexpr std::array<std::string_view, 2> kGltf{".gltf", ".glb"}, kInventor{".wrl", ".iv"};
 
 constexpr std::array kFormats{
     SceneFormat{.name = "ray",
-                .suffixes = kRay,
-                .help = "scenes that begin with SBT-raytracer 1.0",
+                .suffixes = kScene,
+                .help = "scenes that begin with SBT-raytracer 1.0 or Trace 1",
                 .recognises = recognisesRay,
                 .readAt = readRay,
                 .write = writeRay,

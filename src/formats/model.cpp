@@ -176,11 +176,14 @@ Box3 bounds(const Scene& scene) {
   return box;
 }
 
-Camera framing(const Box3& box) {
+Camera framing(const Box3& box) { return framing(box, 40, 1); }
+
+Camera framing(const Box3& box, Real fov, Real aspect, const Vec3& viewdir) {
   constexpr Real kMargin = 1.08;  // of the picture around the box
   Camera camera;
-  camera.fov = 40;
-  camera.viewdir = normalize({-0.35, -0.3, -1});
+  camera.fov = fov;
+  camera.aspectratio = aspect;
+  camera.viewdir = normalize(viewdir);
   const bool nothing = box.empty() || !isFinite(box.size()) || box.size() == Vec3{};
   const Box3 seen = nothing ? Box3{{-1, -1, -1}, {1, 1, 1}} : box;
   const CameraFrame axes = frame(camera, CameraAxes::orthonormal);
@@ -190,7 +193,7 @@ Camera framing(const Box3& box) {
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner = Vec3{i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5};
     const Vec3 size = seen.size(), p{corner.x * size.x, corner.y * size.y, corner.z * size.z};
-    const Real aside = max(std::abs(dot(p, right)), std::abs(dot(p, up)));
+    const Real aside = max(std::abs(dot(p, right)) / aspect, std::abs(dot(p, up)));
     distance = max(distance, aside / slope - dot(p, camera.viewdir));
   }
   camera.position = seen.center() - camera.viewdir * distance;

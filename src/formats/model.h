@@ -62,7 +62,7 @@ void addOnlyMesh(Model& model, MeshData mesh, const Place& place, Messages& mess
 std::vector<Object> placed(const Model& model, const Material& base,
                            const std::function<std::uint32_t(const Material&)>& index);
 
-/// The model as a scene of its own, with addDefaultView() and a grey material where it has none.
+/// The model as a scene of its own, with framing(), plainLights() and a grey material where it has none.
 Scene sceneOf(Model model, const std::string& file, std::string_view format);
 
 /// What a mesh without a material looks like: a light grey, matt.
@@ -73,6 +73,9 @@ Box3 bounds(const Scene& scene);
 
 /// A camera from the front, a little to the right and above, that has the box whole in a square picture.
 Camera framing(const Box3& box);
+/// One that looks along `viewdir`, of an angle of view in degrees, whose picture is `aspect` times as wide as
+/// high.
+Camera framing(const Box3& box, Real fov, Real aspect, const Vec3& viewdir = {-0.35, -0.3, -1});
 
 /// Two directional lights, from above the left and from the right of the camera, and a little ambient light.
 std::vector<LightSource> plainLights(const Camera& camera);

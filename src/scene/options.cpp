@@ -13,6 +13,7 @@
 #include "geometry/shape.h"
 #include "scene/conventions.h"
 #include "scene/option_words.h"
+#include "scene/quality.h"
 
 namespace trace {
 namespace {
@@ -24,6 +25,8 @@ template <class Enum>
 constexpr std::array<std::string_view, 0> kNames{};
 template <>
 constexpr std::array<std::string_view, 2> kNames<Accel>{"bvh", "none"};
+template <>
+constexpr std::array<std::string_view, 4> kNames<Quality>{"none", "draft", "good", "final"};
 template <>
 constexpr std::array<std::string_view, 9> kNames<IntegratorKind>{
     "whitted", "path", "direct", "bdpt", "mlt", "photon", "occlusion", "normals", "cost"};
@@ -370,6 +373,13 @@ const std::array kOptions{
                             .least = 0,
                             .most = kMostPixels,
                             .unit = "pixels"}),
+    row<&Settings::quality>(
+        {.name = "quality",
+         .group = "Picture",
+         .help =
+             "samples, noise target, denoising and the integrator that fits the scene: a draft in seconds, "
+             "a good picture, or a final one; other options override it",
+         .source = "docs/trace-1.md"}),
     row<&Settings::spp>(
         {.name = "spp",
          .group = "Picture",
@@ -1128,6 +1138,12 @@ const std::array kOptions{
                               .most = 100,
                               .unit = "stops",
                               .extra = true}),
+    row<&Settings::autoExposure>(
+        {.name = "auto-exposure",
+         .group = "Tone",
+         .help = "measures the light of the picture first and chooses the exposure by it; exposure is added",
+         .source = "Reinhard et al. 2002; docs/trace-1.md",
+         .repeats = Repeats::world}),
     row<&Settings::whiteBalance>({.name = "white-balance",
                                   .group = "Tone",
                                   .help = "temperature of the light that is to look white, 1667 to 25000; 0 "
@@ -1330,7 +1346,12 @@ Settings resolve(std::initializer_list<std::span<const Choice>> layers) {
         if (isConvention(option)) option.assign(settings, option.get(given));
     }
     for (const Choice& choice : layer)
-      if (choice.option != "like") apply(settings, choice);
+      if (choice.option == "quality") {
+        apply(settings, choice);
+        for (const Choice& own : choicesOf(settings.quality)) apply(settings, own);
+      }
+    for (const Choice& choice : layer)
+      if (choice.option != "like" && choice.option != "quality") apply(settings, choice);
   }
   return settings;
 }
@@ -1340,14 +1361,15 @@ std::string chooserOf(const Option& option, std::initializer_list<std::span<cons
   std::string chooser = "default";
   std::size_t number = 0;
   for (std::span<const Choice> layer : layers) {
-    for (const bool byLike : {true, false})
+    for (const std::string_view by : {"like", "quality", ""})
       for (const Choice& choice : layer) {
-        if (byLike ? choice.option != "like" || !isConvention(option) : choice.option != option.name)
-          continue;
+        if (choice.option != (by.empty() ? option.name : by)) continue;
+        if (by == "like" && !isConvention(option)) continue;
+        if (by == "quality" && !setsOption(choice.value, option.name)) continue;
         const std::string names[] = {place(choice.place), "command line", "studio"};
         chooser = names[number];
         if (chooser.empty()) chooser = "scene file";  // the choice follows from the dialect, at no one place
-        if (byLike) chooser += ", by like";
+        if (!by.empty()) chooser += ", by " + std::string(by);
       }
     ++number;
   }

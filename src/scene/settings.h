@@ -41,6 +41,9 @@ enum class BackFaces { both, cullSeen, cullAll };
 enum class PixelPosition { corner, center, border };
 enum class VertexNormals { unit, mean };
 
+/// How much work a picture is worth: a row of quality.cpp.
+enum class Quality { none, draft, good, final };
+
 /// A type of the list of shapes, by its number there.
 enum class ShapeKind {};
 
@@ -81,6 +84,7 @@ struct Settings {
   int width = 400;
   int height = 0;
   Region region{};
+  Quality quality = Quality::none;
   int spp = 1;
   Real noiseTarget = 0;
   int subdivide = 0;
@@ -183,6 +187,7 @@ struct Settings {
   Rounding rounding = Rounding::truncate;
   // Tone
   Real exposure = 0;
+  bool autoExposure = false;
   Real whiteBalance = 0;
   Transfer transfer = Transfer::linear;
   Real bloom = 0;

@@ -44,7 +44,9 @@ void refreshPlane(Studio& studio, bool pictureChanged) {
 void refresh(Studio& studio) {
   PictureView& view = studio.picture;
   Workspace& workspace = studio.workspace;
-  const Settings settings = workspace.shownSettings();
+  Settings settings = workspace.shownSettings();
+  if (const auto session = workspace.render.session(); session && settings.autoExposure)
+    settings.exposure += session->measuredExposure();
   const bool toneChanged = view.exposed != view.exposure || view.development != developmentOf(settings) ||
                            view.rounding != settings.rounding;
   bool pictureChanged = false;

@@ -161,8 +161,8 @@ TEST(RayErrors, OfTheHeader) {
             "1:1: expected a version after SBT-raytracer, as in 1.0");
   EXPECT_EQ(errorsOfFile("// x\nSBT-raytracer 2.0"),
             "2:15: expected version 1.1 or older of the format, found 2.0");
-  EXPECT_EQ(errorsOfFile("SBT-raytracer = 1.0"), "1:1: expected SBT-raytracer 1.0");
-  EXPECT_EQ(errorsOfFile("SBT-raytracer1.0"), "1:1: expected SBT-raytracer 1.0");
+  EXPECT_EQ(errorsOfFile("SBT-raytracer = 1.0"), "1:1: expected SBT-raytracer 1.0 or Trace 1");
+  EXPECT_EQ(errorsOfFile("SBT-raytracer1.0"), "1:1: expected SBT-raytracer 1.0 or Trace 1");
 }
 
 TEST(RayErrors, AreReportedTogether) {

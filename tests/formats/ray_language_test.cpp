@@ -238,12 +238,25 @@ TEST(RayLanguage, IncludesFilesOnce) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(RayLanguage, WordsThatBeginObjectsNameValuesToo) {
+  EXPECT_EQ(value("rows * scale", "let rows = 2\nlet scale = 3"), 6);
+  EXPECT_EQ(value("f(4)", "let f(box, cone = 2) = box / cone"), 2);
+  expectSame("let scale = 2\nlet sphere = (1, 0, 0)\nscale(scale) { translate(sphere) { sphere { } } }",
+             "scale(2, translate(1, 0, 0, sphere { }))");
+  expectSame(
+      "define wall(rows, scale = 0.5) { for box in 1..rows { translate(box * scale, 0, 0) { box { } } } }\n"
+      "wall(rows = 2)",
+      "translate(0.5, 0, 0, box { }) translate(1, 0, 0, box { })");
+}
+
 TEST(RayLanguage, ErrorsNameThePlaceAndWhatLedThere) {
   const std::pair<const char*, const char*> rows[]{
       {"let a = 1\nlet a = 2",
        "3:5: expected a new name, found \"a\" again [it is defined at test.ray:2:1; nothing is assigned "
        "twice]"},
-      {"let sphere = 1", "2:5: expected a new name, found \"sphere\", which has a meaning already"},
+      {"define sphere() { }", "2:8: expected a new name, found \"sphere\", which has a meaning already"},
+      {"let scale(x) = x", "2:5: expected a new name, found \"scale\", which has a meaning already"},
+      {"let pi = 3", "2:5: expected a new name, found \"pi\", which has a meaning already"},
       {"let a = 1 +", "2:12: expected a value after the operator, found the end of the file"},
       {"let a 1", "2:7: expected \"=\", found \"1\""},
       {"for i on 1..2 { }", "2:7: expected \"in\" after the name of the loop, found \"o\""},

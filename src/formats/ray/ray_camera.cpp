@@ -22,6 +22,11 @@ class CameraReader {
       field(item);
     }
     if (findings_.errors() == before) direct();
+    KindGiven& given = findings_.given();
+    given.cameraPosition = position_;
+    given.cameraDirection = viewdir_ || lookAt_ || turned_;
+    given.aspect = aspect_;
+    if (lookAt_) given.lookAt = target_;
     if (!(camera_.near < camera_.far))
       findings_.warn(block, "camera: expected near to be less than far, found " + toText(camera_.near) +
                                 " and " + toText(camera_.far) + ": nothing is seen");
@@ -57,6 +62,8 @@ class CameraReader {
       findings_.expected(item.value(), key, "a place at most 1e75 from the origin");
     if ((key == "viewdir" && !isLength(camera_.viewdir)) || (key == "updir" && !isLength(camera_.updir)))
       findings_.expected(item.value(), key, "a direction between 1e-75 and 1e75 long");
+    if (key == "position") position_ = true;
+    if (key == "aspectratio") aspect_ = true;
     if (key == "viewdir") viewdir_ = item;
     if (key == "updir") updir_ = item;
     if (key == "fov" && item.value().is(Kind::number) && !(camera_.fov > 0 && camera_.fov < 180))
@@ -95,6 +102,7 @@ class CameraReader {
       return findings_.expected(item.value(), item.key(), "a quaternion that is not zero");
     Affine turn;
     if (sine > 0) turn = Affine::rotation(axis / sine, 2 * std::atan2(sine, q[3]));
+    turned_ = true;
     if (!viewdir_) camera_.viewdir = linear(turn, {0, 0, -1});
     if (!updir_) camera_.updir = linear(turn, {0, 1, 0});
   }
@@ -102,6 +110,7 @@ class CameraReader {
   /// Settles viewdir and updir from all that was given.
   void direct() {
     if (lookAt_) {
+      if (findings_.isOfKind() && !position_) return;  // the place follows (formats/kind_defaults.h)
       camera_.viewdir = target_ - camera_.position;
       if (!hasDirection(camera_.viewdir))
         return findings_.expected(lookAt_->value(), "look_at", "a point other than the camera's position");
@@ -110,6 +119,9 @@ class CameraReader {
       if (viewdir_) findings_.warn(*viewdir_, "viewdir is ignored, since look_at is given");
       const bool vertical = camera_.viewdir.x == 0 && camera_.viewdir.z == 0;
       if (!updir_) camera_.updir = vertical ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    } else if (viewdir_ && !updir_ && findings_.isOfKind()) {
+      const bool vertical = camera_.viewdir.x == 0 && camera_.viewdir.z == 0;
+      camera_.updir = vertical ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     } else if (viewdir_.has_value() != updir_.has_value()) {
       findings_.error(viewdir_ ? *viewdir_ : *updir_,
                       viewdir_ ? "viewdir: expected updir as well" : "updir: expected viewdir as well",
@@ -128,7 +140,7 @@ class CameraReader {
   Camera camera_;
   Vec3 target_;
   Real horizontalFov_ = 0;  ///< degrees; 0: not given
-  bool hasFov_ = false;
+  bool hasFov_ = false, position_ = false, aspect_ = false, turned_ = false;
   std::optional<Item> viewdir_, updir_, lookAt_;
 };
 

@@ -60,7 +60,7 @@ Value Evaluator::eval(std::uint32_t index, const Scoped& scope) {
     case Kind::call: {
       const std::string_view name = wordAt(index + 1);
       const bool isTuple = kind(index + 2) == Kind::tuple;
-      const Found found = find(name, scope);
+      const Found found = findCalled(name, scope);
       if (found.binding && isTuple && !isDefinition(*found.binding)) return called(index, found, scope);
       if (!found.binding && isTuple && findFunction(name)) return builtIn(index, *findFunction(name), scope);
       return Tree{index, scope};
@@ -81,7 +81,7 @@ bool Evaluator::isTrue(const Value& value, std::uint32_t index) {
 
 std::optional<double> Evaluator::constant(std::string_view name) const {
   if (name == "pi") return kPi;
-  if (name == "tau") return 2 * kPi;
+  if (name == "tau") return degrees_ ? 360 : 2 * kPi;
   if (name == "time") return time_.now();
   return {};
 }
@@ -129,7 +129,7 @@ std::shared_ptr<Scope> Evaluator::bound(std::uint32_t call, std::string_view nam
     const std::uint32_t word = kind(parameter) == Kind::entry ? parameter + 1 : parameter;
     if (wordAt(word).empty())
       fail(parameter, "expected the name of a parameter, found " + describe(at(parameter)));
-    checkName(word);
+    checkName(word, Named::value);
     names.push_back(wordAt(word));
   }
   std::size_t place = 0;
@@ -213,7 +213,12 @@ Value Evaluator::builtIn(std::uint32_t call, const Function& function, const Sco
     fail(call, "expected " + std::string(function.name) + "(" + std::string(function.parameters) +
                    "), found " + counted(arguments.size(), "argument"));
   std::uint64_t random = seedAt(call, *scope);
-  return guarded(call, [&] { return function.call(arguments, random); });
+  return guarded(call, [&] {
+    if (degrees_ && function.angles == Angles::taken)
+      for (Value& angle : arguments) angle = operate(Op::degrees, angle);
+    const Value result = function.call(arguments, random);
+    return degrees_ && function.angles == Angles::given ? operate(Op::divide, result, kPi / 180) : result;
+  });
 }
 
 Value Evaluator::expression(Cursor& cursor, int least, const Scoped& scope, bool live) {
@@ -262,7 +267,15 @@ Value Evaluator::operated(Cursor& cursor, std::uint32_t operation, Op op, int le
       return guarded(operation, [&] { return element(left, index); });
     }
     case Op::degrees:
-    case Op::radians: return live ? guarded(operation, [&] { return operate(op, left); }) : left;
+    case Op::radians: {
+      if (!live) return left;
+      const bool asIs = degrees_ == (op == Op::degrees);
+      return guarded(operation, [&] {
+        return asIs       ? operate(Op::multiply, left, 1.0)
+               : degrees_ ? operate(Op::divide, left, kPi / 180)
+                          : operate(op, left);
+      });
+    }
     case Op::both:
     case Op::either: {
       const bool first = live && isTrue(left, operation);

@@ -15,7 +15,8 @@ namespace trace::rayfile {
 
 class Evaluator : protected Names {
  public:
-  Evaluator(Syntax& syntax, SceneTime& time, InputFiles& inputs) : Names(syntax, inputs), time_(time) {}
+  Evaluator(Syntax& syntax, SceneTime& time, InputFiles& inputs)
+      : Names(syntax, inputs), degrees_(syntax.isOfKind()), time_(time) {}
 
  protected:
   /// The value of a node.
@@ -38,6 +39,8 @@ class Evaluator : protected Names {
            kind(tuple + 1) == Kind::expression;
   }
   std::optional<double> constant(std::string_view name) const;
+
+  const bool degrees_;  ///< is that the unit of angles? else radians
 
  private:
   Value listOf(std::uint32_t tuple, const Scoped& scope);

@@ -144,7 +144,8 @@ void readField(Findings& findings, const Field& f, const Item& value, Value& to)
     if (value.is(Kind::number) && !fitsInt(value.number()) && f.most != kNoLimit)
       return findings.expected(value, f.keyword,
                                "a whole number from " + toText(f.least) + " to " + toText(f.most));
-  if (f.unit == "degrees" && value.is(Kind::number) && value.source().ends_with("deg"))
+  if (f.unit == "degrees" && value.is(Kind::number) && value.source().ends_with("deg") &&
+      !findings.isOfKind())
     return findings.expected(value, f.keyword, "a number of degrees",
                              "write it without deg, which makes radians");
   read(findings, f.keyword, value, to);

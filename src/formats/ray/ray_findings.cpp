@@ -133,6 +133,9 @@ bool Findings::refuse(std::string_view kind, const Item& at) {
 void Findings::notRendered(std::string_view kind, const Item& node, std::string text,
                            std::span<const std::string_view> known) {
   if (refuse(kind, node)) return;
+  if (isOfKind())
+    return error(node, quotedStart(kind) + " is not known",
+                 isRelative(kind) ? std::string(insteadOf(kind)) : didYouMean(kind, known));
   scene_.unrendered.push_back({std::string(kind), syntax_.shortPlace(node.offset()), std::move(text)});
   const std::string key = "not rendered: " + std::string(kind);
   if (again(key)) return;
@@ -147,11 +150,13 @@ void Findings::unknownField(std::string_view owner, const Item& field,
   const std::string_view name = field.key();
   if (isRelative(name)) return notRendered(name, field, known);
   const std::string key = "unknown field: " + std::string(owner) + "." + std::string(name);
-  if (again(key)) return;
+  if (!isOfKind() && again(key)) return;
   std::string hint;
   if (warnings_.size() < kFullWarnings) hint = didYouMean(name, known);
   if (owner == "sphere" && name == "radius") hint = "scale(2, sphere { }) makes it twice as large";
   if (warnings_.size() < kFullWarnings && hint.empty()) hint = allOf(known);
+  if (isOfKind())
+    return error(field, std::string(owner) + " has no field " + quotedStart(name), std::move(hint));
   add(key, field, "unknown field " + quotedStart(name) + " of " + std::string(owner) + " is ignored",
       std::move(hint));
 }
@@ -207,7 +212,7 @@ void RepeatedFields::note(const Item& field) {
 /// Words of 2001 and shininess tell only where nothing says that the file is newer, and no highlight has an
 /// exponent above 1. Exponents from 0 to 1 would make highlights so wide that nobody wants them.
 void Findings::finishDialect() {
-  if (later_ || largeShininess_) return;
+  if (isOfKind() || later_ || largeShininess_) return;
   const std::optional<Place>& sign = of2001_ ? of2001_ : smallShininess_;
   if (!sign) return;
   for (const Choice& choice : scene_.choices)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "formats/kind_defaults.h"
 #include "formats/ray/ray_notes.h"
 #include "formats/ray/ray_syntax.h"
 #include "scene/scene.h"
@@ -32,6 +33,11 @@ class Findings {
   void expected(const Item& value, std::string_view name, const std::string& what, std::string hint = {});
 
   std::size_t errors() const { return errors_; }
+
+  /// What the file says of what its kind would give it (formats/kind_defaults.h).
+  KindGiven& given() { return given_; }
+  /// The file is of the kind `Trace 1`: words that nobody knows are errors.
+  bool isOfKind() const { return syntax_.isOfKind(); }
 
   /// Warnings of one kind, which is their text unless given, become one with the place of the first.
   void warn(const Item& at, std::string what, std::string hint = {}, std::string_view kind = {});
@@ -77,6 +83,7 @@ class Findings {
   Scene& scene_;
   Messages& messages_;
   Notes* notes_;
+  KindGiven given_;
   std::vector<Warning> warnings_;
   std::map<std::string, std::size_t, std::less<>> kinds_;
 

@@ -40,8 +40,14 @@ void settle(Syntax& syntax, SceneTime& time, InputFiles& inputs) {
 
 namespace {
 
-constexpr std::string_view kMagic = "SBT-raytracer";
 constexpr double kNewestVersion = 1.1;
+
+/// Does the text begin with the word, as a whole?
+bool beginsWith(std::string_view text, std::string_view word) {
+  const std::string_view rest = text.substr(std::min(word.size(), text.size()));
+  return sameWord(text.substr(0, word.size()), word) &&
+         (rest.empty() || std::string_view(" \t\r\n").find(rest[0]) != rest.npos);
+}
 
 // --- the reader -----------------------------------------------------------------------------------------
 
@@ -66,6 +72,8 @@ class Reader {
     findings_.finish();
     warnOfEmptiness();
     messages_.throwIfFailed();
+    if (syntax_.isOfKind())
+      addKindDefaults(scene_, findings_.given(), syntax_.shortPlace((*root.begin()).offset()));
   }
   const TextureReader& textures() { return materials_.textures(); }
 
@@ -74,9 +82,10 @@ class Reader {
 
   /// Leaves `item` after the header.
   void readHeader(Item::Iterator& item, const Item::Iterator& end) {
-    if (item == end || !(*item).is(Kind::word) || !sameWord((*item).text(), kMagic))
+    if (syntax_.isOfKind()) return readKind(item, end);
+    if (item == end || !(*item).is(Kind::word) || !sameWord((*item).text(), kCourses))
       throw Error(Fault::scene, syntax_.place(item == end ? 0 : (*item).offset()),
-                  "expected SBT-raytracer 1.0");
+                  "expected SBT-raytracer 1.0 or Trace 1");
     const Item magic = *item;
     if (++item == end || !(*item).is(Kind::number))
       throw Error(Fault::scene, syntax_.place(magic.offset()),
@@ -84,6 +93,15 @@ class Reader {
     if (!((*item).number() > 0 && (*item).number() <= kNewestVersion))
       throw Error(Fault::scene, syntax_.place((*item).offset()),
                   "expected version 1.1 or older of the format, found " + describe(*item));
+    ++item;
+  }
+
+  void readKind(Item::Iterator& item, const Item::Iterator& end) {
+    const Item kind = *item;
+    if (++item == end || !(*item).is(Kind::number) || (*item).number() != 1)
+      throw Error(Fault::scene, syntax_.place(item == end ? kind.offset() : (*item).offset()),
+                  "expected 1 after Trace" + (item == end ? "" : ", found " + describe(*item)),
+                  "a scene begins with the line: Trace 1");
     ++item;
   }
 
@@ -147,7 +165,9 @@ Scene readNoted(Syntax& syntax, Messages& messages, Real time, Notes& notes) {
 }  // namespace rayfile
 
 bool recognisesRay(std::string_view bytes) {
-  return sameWord(rayfile::skipBlanks(bytes).substr(0, rayfile::kMagic.size()), rayfile::kMagic);
+  const std::string_view text = rayfile::skipBlanks(bytes);
+  return sameWord(text.substr(0, rayfile::kCourses.size()), rayfile::kCourses) ||
+         rayfile::beginsWith(text, rayfile::kKind);
 }
 
 Scene readRay(const std::string& file, std::string_view bytes, Messages& messages, Real time) {

@@ -114,7 +114,7 @@ class Expander : Evaluator {
       case Kind::loop: loop(child, scope, isList); return next;
       case Kind::branch: branch(child, scope, isList); return next;
       case Kind::call: {
-        const Found found = find(wordAt(child + 1), scope);
+        const Found found = findCalled(wordAt(child + 1), scope);
         if (!found.binding) break;
         const bool overridden = next < end && node(next).follows && kind(child + 2) == Kind::tuple;
         made(child, found, scope, overridden ? next : 0);
@@ -134,13 +134,18 @@ class Expander : Evaluator {
   /// An included file may have the first words of a scene.
   std::uint32_t withoutHead(std::uint32_t root) const {
     const std::uint32_t first = root + 1;
-    if (first >= after(root) || wordAt(first) != "SBT-raytracer") return first;
+    if (first >= after(root) || (wordAt(first) != kCourses && wordAt(first) != kKind)) return first;
+    if ((wordAt(first) == kKind) != degrees_)
+      fail(first,
+           "expected a file of the kind " + std::string(degrees_ ? kKind : kCourses) + ", found " +
+               std::string(wordAt(first)),
+           "angles in the two are of different units; a file without such a first line goes with both");
     const std::uint32_t second = after(first);
     return second < after(root) && kind(second) == Kind::number ? after(second) : second;
   }
   void loop(std::uint32_t statement, const Scoped& scope, bool isList) {
     const std::uint32_t name = statement + 1, source = name + 1, body = after(source);
-    checkName(name);
+    checkName(name, Named::value);
     const Value all = eval(source, scope);
     if (!all.list()) fail(source, "expected a range such as 0..9 or a list, found " + shown(all));
     const std::uint64_t seed = seedAt(statement, *scope);
@@ -262,7 +267,7 @@ class Expander : Evaluator {
     const std::string_view name = wordAt(index + 1);
     const bool hasBlock = kind(index + 2) == Kind::block;
     const bool isTexture = hasBlock && textureWords_.contains(name);
-    if (const Found found = find(name, scope); found.binding && !isTexture)
+    if (const Found found = findCalled(name, scope); found.binding && !isTexture)
       return made(index, found, scope, 0);
     if (!hasBlock && isFunction(name)) return emit(eval(index, scope), index);
     if (hasBlock && name == "group") return copy(index + 2, scope);
@@ -297,7 +302,7 @@ class Expander : Evaluator {
     if (kind(index) == Kind::tuple || kind(index) == Kind::expression) return true;
     const bool isCall = kind(index) == Kind::call && kind(index + 2) == Kind::tuple;
     const std::string_view name = wordAt(isCall ? index + 1 : index);
-    const Found found = find(name, scope);
+    const Found found = isCall ? findCalled(name, scope) : find(name, scope);
     return found.binding ? !isDefinition(*found.binding) : isCall && isFunction(name);
   }
   /// A value in the place of the node `use`.

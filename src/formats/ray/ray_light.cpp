@@ -19,6 +19,7 @@ namespace {
 
 /// What students called a point light with a size, and that size.
 constexpr std::string_view kAreaLight = "area_light";
+constexpr std::string_view kWatts = "power";
 constexpr std::array<std::string_view, 3> kRadius{"bottom_radius", "light_radius", "area"};
 
 /// What students called the fields of spot lights (docs/lights.md).
@@ -80,10 +81,14 @@ bool withLight(std::string_view keyword, Visit&& visit) {
   return found;
 }
 
-/// Fields that a light cannot do without, if it has them.
-bool isRequired(std::string_view field) {
-  return field == "position" || field == "direction" || field == "color";
+/// Fields that a light cannot do without, if it has them. Of a kind with defaults, a light is white.
+bool isRequired(std::string_view field, bool isOfKind) {
+  return field == "position" || field == "direction" || (field == "color" && !isOfKind);
 }
+
+/// The watts of a lamp that shines to all sides with a colour of 1: a matt white surface at the distance 1
+/// shows intensity / pi, and the intensity is power / (4 pi).
+constexpr Real kPowerOfOne = 4 * kPi * kPi;
 
 template <class L>
 bool checkDirection(Findings& findings, const Item& call, const L& light) {
@@ -164,6 +169,9 @@ void read(Findings& findings, const Item& call) {
   StudentSpot spot;
   const std::size_t errors = findings.errors();
   std::vector<std::string_view> given, unknown;
+  Real power = 0;  ///< watts; 0: not given
+  if constexpr (requires { light.color; })
+    if (findings.isOfKind()) light.color = Color(1);
   RepeatedFields repeats(findings, L::kKeyword);
   for (const Item item : *block) {
     if (!isField(findings, item, L::kKeyword)) continue;
@@ -177,6 +185,12 @@ void read(Findings& findings, const Item& call) {
       }
     if constexpr (std::is_same_v<L, SpotLight>)
       if (spot.read(findings, item, light)) continue;
+    if constexpr (requires { light.quadratic; })
+      if (findings.isOfKind() && item.key() == kWatts) {
+        if (rayfile::read(findings, kWatts, item.value(), power) && !(power > 0))
+          findings.expected(item.value(), kWatts, "watts, more than 0");
+        continue;
+      }
     if (assignField(findings, links, item)) {
       if (item.key() == "lights" && links.lights.empty())
         findings.warn(item, "lights: a list without names is as none: everything is lit",
@@ -195,7 +209,7 @@ void read(Findings& findings, const Item& call) {
     return std::find(given.begin(), given.end(), field) != given.end();
   };
   forEachField<L>([&](const auto& field) {
-    if (!isRequired(field.keyword) || isGiven(field.keyword)) return;
+    if (!isRequired(field.keyword, findings.isOfKind()) || isGiven(field.keyword)) return;
     const std::string meant = nearest(field.keyword, unknown);
     findings.error(call, std::string(L::kKeyword) + ": expected a " + std::string(field.keyword),
                    meant.empty() ? ""
@@ -215,6 +229,13 @@ void read(Findings& findings, const Item& call) {
     if (light.fullAngle > light.angle && fullAngle)
       findings.warn(call, "spot_light: expected a full_angle of at most the angle, found " +
                               toText(light.fullAngle) + " and " + toText(light.angle));
+  }
+  if constexpr (requires { light.quadratic; }) {
+    const bool fades = light.constant == 0 && light.linear == 0 && light.quadratic == 1;
+    if (power > 0)
+      light.color = light.color * (power / kPowerOfOne);
+    else if (fades)
+      findings.given().fading.push_back(findings.scene().lights.size());
   }
   findings.scene().lights.push_back({light, findings.syntax().shortPlace(call.offset()), std::move(links)});
 }

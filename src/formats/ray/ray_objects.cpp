@@ -15,6 +15,7 @@
 #include "geometry/shapes/blend.h"
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/julia.h"
+#include "geometry/shapes/plane.h"
 #include "scene/particles.h"
 #include "scene/rows.h"
 #include "shading/cameras/camera.h"
@@ -137,6 +138,9 @@ void ObjectReader::mesh(const Item& call, const Item& block, const Affine& world
 }
 
 void ObjectReader::analyticShape(Shape shape, const Item& call, const Item& block, Affine worldFromObject) {
+  // Of a kind in which y is up, the ground is level.
+  if (findings_.isOfKind() && shape.is<Plane>())
+    worldFromObject = worldFromObject * Affine{{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, {}};
   std::string name;
   ObjectLinks links;
   NotedMaterial material = materials_.current;

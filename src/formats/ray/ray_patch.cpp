@@ -301,13 +301,17 @@ std::string moved(const std::string& text, const std::string& from, const std::s
 }  // namespace
 }  // namespace rayfile
 
+std::string withNamesSeenFrom(const std::string& text, const std::string& from, const std::string& to) {
+  return rayfile::moved(text, from, to);
+}
+
 Rewritten rewriteRay(const SceneText& read, const Scene& edited, const std::string& file,
                      Messages& messages) {
   Messages lost, others;
   std::optional<std::string> text;
   try {
     const rayfile::Syntax syntax(read.file, *read.bytes);
-    if (!syntax.usesLanguage() && !rayfile::speaksStudents(syntax))
+    if (!syntax.usesLanguage() && !syntax.isOfKind() && !rayfile::speaksStudents(syntax))
       text = rayfile::Patch(read, lost, others).text(edited);
     else if (rayfile::Patch::sameScene(*read.scene, edited))
       text = *read.bytes;  // else one place of the text may have made many objects

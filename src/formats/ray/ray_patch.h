@@ -18,6 +18,10 @@ namespace trace {
 /// What `look_at` of the camera says at that moment. Precondition: the text can be read.
 std::optional<Vec3> lookAtIn(const std::string& file, std::string_view bytes, Real time);
 
+/// The text of the file `from`, in which the files that it names are called as they are seen from the folder
+/// of `to`.
+std::string withNamesSeenFrom(const std::string& text, const std::string& from, const std::string& to);
+
 /// The scene as `file`. Warns of what was written anew or is lost. Throws Error(Fault::scene) as writeRay().
 Rewritten rewriteRay(const SceneText& read, const Scene& edited, const std::string& file, Messages& messages);
 

@@ -69,7 +69,8 @@ std::optional<Affine> rotation(Findings& findings, std::span<const Item> items) 
     findings.error(items[0], "rotate: expected an axis, found one of length " + toText(length));
     return Affine{};
   }
-  return Affine::rotation(Vec3{n[0], n[1], n[2]} / length, n[3]);
+  const Real radians = findings.isOfKind() ? n[3] * (kPi / 180) : n[3];
+  return Affine::rotation(Vec3{n[0], n[1], n[2]} / length, radians);
 }
 
 std::optional<Affine> matrix(Findings& findings, std::span<const Item> rows) {

@@ -32,7 +32,7 @@ RayRemarks remarksOn(const std::string& file, std::string_view bytes) {
   for (std::uint32_t i = 0; i < syntax.nodes().size(); ++i) {
     const Item item(syntax, i);
     if (!item.is(Kind::call)) continue;
-    if (item.key() == "rotate") addAngle(syntax, item, remarks);
+    if (item.key() == "rotate" && !syntax.isOfKind()) addAngle(syntax, item, remarks);
     if (item.key() == Camera::kKeyword) remarks.camera = syntax.place(item.offset());
   }
   return remarks;

@@ -26,7 +26,7 @@ bool holdsTree(const Value& value) {
 }  // namespace
 
 Names::Names(Syntax& syntax, InputFiles& inputs) : syntax_(syntax), inputs_(inputs) {
-  for (const std::string_view word : knownWords()) reserved_.insert(word);
+  for (const std::string_view word : knownWords()) objects_.insert(word);
   reserved_.insert(kStatementWords.begin(), kStatementWords.end());
   reserved_.insert(kConstants.begin(), kConstants.end());
 }
@@ -58,7 +58,8 @@ void Names::declare(std::uint32_t block, Scope& scope) {
 void Names::add(std::uint32_t statement, Scope& scope) {
   const std::uint32_t name = statement + 1;
   const std::string_view text = at(name).text();
-  checkName(name);
+  const bool takes = kind(statement) == Kind::define || kind(statement + 2) == Kind::tuple;
+  checkName(name, takes && after(statement + 2) < after(statement) ? Named::call : Named::value);
   for (const Binding& other : scope.bindings)
     if (other.name == text)
       fail(name, "expected a new name, found \"" + std::string(text) + "\" again",
@@ -67,9 +68,9 @@ void Names::add(std::uint32_t statement, Scope& scope) {
   scope.bindings.push_back({text, statement});
 }
 
-void Names::checkName(std::uint32_t name) const {
+void Names::checkName(std::uint32_t name, Named what) const {
   const std::string_view text = at(name).text();
-  if (reserved_.contains(text))
+  if (reserved_.contains(text) || (what == Named::call && objects_.contains(text)))
     fail(name, "expected a new name, found \"" + std::string(text) + "\", which has a meaning already");
 }
 

@@ -70,8 +70,10 @@ class Names {
 
   /// All names of a block, before anything of it is worked out.
   void declare(std::uint32_t block, Scope& scope);
-  /// What means something already is no name.
-  void checkName(std::uint32_t name) const;
+  /// Words of statements and constants are no names. Words that begin an object, such as `rows`, name values
+  /// only: behind them, brackets make the object.
+  enum class Named { value, call };
+  void checkName(std::uint32_t name, Named what) const;
 
   struct Found {
     Binding* binding = nullptr;
@@ -79,6 +81,10 @@ class Names {
   };
   /// The innermost binding of the name that is seen from there.
   Found find(std::string_view name, const Scoped& from) const;
+  /// The same for a name with brackets behind it.
+  Found findCalled(std::string_view name, const Scoped& from) const {
+    return objects_.contains(name) ? Found{} : find(name, from);
+  }
   bool isFunctionLet(const Binding& binding) const {
     return !binding.value && kind(binding.node) == Kind::let && kind(binding.node + 2) == Kind::tuple &&
            after(binding.node + 2) < after(binding.node);
@@ -150,6 +156,7 @@ class Names {
   std::string_view nameAt(std::uint32_t index) const;
 
   std::set<std::string_view> reserved_;  // words that are no names
+  std::set<std::string_view> objects_;   // words that mean something with brackets behind them
   std::set<std::string> included_;
   std::vector<Scoped> rings_;
   mutable std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint64_t> ordinals_;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "formats/ray/ray_parser.h"
+#include "formats/words.h"
 
 namespace trace::rayfile {
 namespace {
@@ -53,6 +54,10 @@ const Syntax::Source& Syntax::sourceOf(std::size_t offset) const {
   const auto after = std::upper_bound(sources_.begin(), sources_.end(), offset,
                                       [](std::size_t at, const Source& source) { return at < source.base; });
   return *(after - 1);
+}
+
+bool Syntax::isOfKind() const {
+  return nodes_.size() > 1 && nodes_[1].kind == Kind::word && sameWord(textOf(nodes_[1]), kKind);
 }
 
 Item Syntax::root() const { return {*this, 0}; }

@@ -110,6 +110,8 @@ class Syntax {
   bool hasKeys() const { return hasKeys_; }
   /// Is there a statement or an expression?
   bool usesLanguage() const { return usesLanguage_; }
+  /// Does the file begin with `Trace 1`? Then its angles are in degrees.
+  bool isOfKind() const;
   /// What somebody has to be told of the text itself, or of what was made of it.
   struct Remark {
     std::uint32_t offset;
@@ -175,6 +177,9 @@ class Syntax {
   std::vector<Remark> remarks_;
   bool hasKeys_ = false, usesLanguage_ = false;
 };
+
+/// The first word of the two kinds of file.
+inline constexpr std::string_view kCourses = "SBT-raytracer", kKind = "Trace";
 
 /// Has the language a function of that name?
 bool isFunction(std::string_view name);

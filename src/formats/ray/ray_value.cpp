@@ -122,16 +122,17 @@ Value steps(Arguments a, std::uint64_t&) {
 
 constexpr std::string_view kX = "x";
 constexpr std::array kFunctions{
-    Function{"sin", kX, 1, 1, "sine of an angle in radians: sin(30 deg) is 0.5", ofOne<std::sin>},
-    Function{"cos", kX, 1, 1, "cosine of an angle in radians", ofOne<std::cos>},
-    Function{"tan", kX, 1, 1, "tangent of an angle in radians", ofOne<std::tan>},
-    Function{"asin", kX, 1, 1, "the angle of that sine, in radians", ofOne<std::asin>},
-    Function{"acos", kX, 1, 1, "the angle of that cosine, in radians", ofOne<std::acos>},
-    Function{"atan", kX, 1, 1, "the angle of that tangent, in radians", ofOne<std::atan>},
-    Function{"atan2", "y, x", 2, 2, "the angle of the point (x, y), in radians",
+    Function{"sin", kX, 1, 1, "sine of an angle: sin(30 deg) is 0.5", ofOne<std::sin>, Angles::taken},
+    Function{"cos", kX, 1, 1, "cosine of an angle", ofOne<std::cos>, Angles::taken},
+    Function{"tan", kX, 1, 1, "tangent of an angle", ofOne<std::tan>, Angles::taken},
+    Function{"asin", kX, 1, 1, "the angle of that sine", ofOne<std::asin>, Angles::given},
+    Function{"acos", kX, 1, 1, "the angle of that cosine", ofOne<std::acos>, Angles::given},
+    Function{"atan", kX, 1, 1, "the angle of that tangent", ofOne<std::atan>, Angles::given},
+    Function{"atan2", "y, x", 2, 2, "the angle of the point (x, y)",
              [](Arguments a, std::uint64_t&) -> Value {
                return std::atan2(needNumber(a[0], "as y"), needNumber(a[1], "as x"));
-             }},
+             },
+             Angles::given},
     Function{"sqrt", kX, 1, 1, "square root", ofOne<std::sqrt>},
     Function{"exp", kX, 1, 1, "e to that power", ofOne<std::exp>},
     Function{"log", kX, 1, 1, "natural logarithm", ofOne<std::log>},

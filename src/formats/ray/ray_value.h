@@ -57,12 +57,16 @@ Value element(const Value& of, const Value& index);
 double needNumber(const Value& value, std::string_view what);
 bool needTruth(const Value& value, std::string_view what);
 
+/// Which of a function's numbers are angles, in radians.
+enum class Angles { none, taken, given };
+
 /// A function of the language. `random` gives numbers from 0 up to 1, one after another.
 struct Function {
   std::string_view name, parameters;
   std::size_t least, most;  ///< arguments
   std::string_view help;
   Value (*call)(std::span<const Value> arguments, std::uint64_t& random);
+  Angles angles = Angles::none;
 };
 std::span<const Function> functions();
 const Function* findFunction(std::string_view name);

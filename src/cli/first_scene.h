@@ -1,0 +1,41 @@
+// The scene that `ray new` writes.
+#pragma once
+
+#include <string_view>
+
+namespace trace::cli {
+
+inline constexpr std::string_view kFirstScene = R"(Trace 1
+
+// A first scene. `ray scene.ray` renders it, `ray gui scene.ray` opens it in the studio.
+// Change a number, render again, and see what happens. `ray materials` lists what things can be made of.
+// x goes to the right, y up, z toward you. Angles are in degrees.
+
+// Names for what is used more than once.
+let red = material { library = "red plastic" }
+let high = 0.8
+
+camera { position = (0, 2.6, 8.5); look_at = (0, 0.75, 0); fov = 32; aspectratio = 4 / 3 }
+
+// The ground is the plane y = 0.
+plane { material = { library = oak } }
+
+// Objects are made at the origin and moved from there: the innermost step acts first.
+translate(-1.6, 1, 0) { sphere { material = red } }
+translate(1.9, high, 0.4) { scale(high) { sphere { material = { library = bronze } } } }
+translate(0.4, high, -1.4) {
+  rotate y 25 { scale(2 * high) { box { material = { library = "green marble" } } } }
+}
+
+// A loop: nine pearls on a circle. `i` counts from 0 to 8.
+for i in 0..8 {
+  rotate y (40 * i) {
+    translate(0, 0.18, 2.6) { scale(0.18) { sphere { material = { library = porcelain } } } }
+  }
+}
+
+// A scene without a light of its own gets a sky and a sun. Take the two strokes away to have a lamp instead.
+// point_light { position = (-3, 5, 4); radius = 0.4 }
+)";
+
+}  // namespace trace::cli

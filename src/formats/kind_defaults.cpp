@@ -1,0 +1,240 @@
+#include "formats/kind_defaults.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "base/match.h"
+#include "formats/format.h"
+#include "formats/model.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/mesh/mesh_smooth.h"
+#include "geometry/traced.h"
+
+namespace trace {
+namespace {
+
+constexpr Real kPlainFov = 40, kPlainAspect = 4.0 / 3;
+
+struct KindChoice {
+  std::string_view option, value;
+};
+/// Light is worked out as nature has it, and shown as a screen and an eye expect it.
+constexpr std::array kKindChoices{KindChoice{"width", "640"},
+                                  KindChoice{"quality", "good"},
+                                  KindChoice{"pixel-position", "center"},
+                                  KindChoice{"rounding", "nearest"},
+                                  KindChoice{"transfer", "srgb"},
+                                  KindChoice{"tone", "filmic"},
+                                  KindChoice{"auto-exposure", "on"},
+                                  KindChoice{"fresnel", "exact"},
+                                  KindChoice{"air-index", "1"},
+                                  KindChoice{"glass-shadows", "black"},
+                                  KindChoice{"mirror-default", "zero"},
+                                  KindChoice{"limit-attenuation", "off"}};
+
+bool isGiven(const Scene& scene, std::string_view option) {
+  return std::any_of(scene.choices.begin(), scene.choices.end(),
+                     [&](const Choice& choice) { return choice.option == option; });
+}
+
+/// The sky by day of a friendly afternoon: colours from straight down to straight up.
+Background sky() {
+  Background background;
+  background.gradient = {{0.3, 0.27, 0.24}, {0.42, 0.4, 0.37}, {0.75, 0.85, 0.95}, {0.2, 0.42, 0.85}};
+  background.elevations = {-90, -3, 1, 60};
+  return background;
+}
+
+/// Over the left shoulder of who looks, large enough in the sky for soft shadows.
+LightSource sun(const Camera& camera, Real size) {
+  const CameraFrame axes = frame(camera, CameraAxes::orthonormal);
+  Vec3 along = normalize(axes.look);
+  along.y = 0;
+  const Real flat = length(along);
+  along = flat > 1e-3 ? along / flat : Vec3{0, 0, -1};
+  const Vec3 right = cross(along, {0, 1, 0});
+  return {DirectionalLight{.direction = normalize(along * 0.75 + right * 0.55 + Vec3{0, -1, 0}),
+                           .color = {2.4, 2.25, 2},
+                           .size = size},
+          {}};
+}
+
+/// The scene gives light by itself.
+bool givesLight(const Scene& scene) {
+  const Background& background = scene.background;
+  return !scene.lights.empty() || !(background == Background{}) || isGiven(scene, "environment") ||
+         std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+           const Material& material = scene.materials[object.material];
+           return glows(material) || !isBlack(material.mediumGlows);
+         });
+}
+
+void addCamera(Scene& scene, const KindGiven& given, const Box3& seen) {
+  Camera& camera = scene.camera;
+  if (given.cameraPosition && given.cameraDirection) return;
+  if (!given.cameraPosition && !given.cameraDirection) {
+    const Camera before = camera;
+    camera = framing(seen, kPlainFov, given.aspect ? before.aspectratio : kPlainAspect);
+    scene.kindDefaults.emplace_back("a camera that shows all objects");
+    return;
+  }
+  if (!given.cameraDirection) {
+    const Vec3 target = seen.empty() ? Vec3{} : seen.center();
+    const Vec3 view = target - camera.position;
+    if (!(length(view) > 0)) return;
+    camera.viewdir = normalize(view);
+    const bool vertical = camera.viewdir.x == 0 && camera.viewdir.z == 0;
+    camera.updir = vertical ? Vec3{0, 0, -1} : Vec3{0, 1, 0};
+    scene.kindDefaults.emplace_back("a camera that looks at the middle of the objects");
+    return;
+  }
+  Vec3 direction = camera.viewdir;
+  if (given.lookAt) direction = Vec3{-0.35, -0.3, -1};  // look_at without a place to look from
+  Camera framed = framing(seen, camera.fov, camera.aspectratio, direction);
+  if (given.lookAt) framed.position = *given.lookAt - (seen.center() - framed.position);
+  framed.updir = camera.updir;
+  framed.near = camera.near;
+  framed.far = camera.far;
+  camera = framed;
+  scene.kindDefaults.emplace_back("a camera so far away that it shows all objects");
+}
+
+/// Meshes without normals look round where their faces meet at less than this, and have no back.
+constexpr Real kCrease = 40 * kPi / 180;
+
+void smoothMeshes(Scene& scene) {
+  std::vector<std::pair<const MeshData*, Mesh>> smooth;  // instances share them
+  for (Object& object : scene.objects) {
+    const auto* mesh = object.shape.as<Mesh>();
+    if (!mesh) continue;
+    const MeshData& data = *mesh->data;
+    if (!data.normals.empty() || data.generateNormals || data.triangles.empty()) continue;
+    auto found = std::find_if(smooth.begin(), smooth.end(), [&](const auto& s) { return s.first == &data; });
+    if (found == smooth.end()) {
+      smooth.emplace_back(&data, Mesh{std::make_shared<const MeshData>(withCreaseNormals(data, kCrease))});
+      found = std::prev(smooth.end());
+    }
+    object.shape = found->second;
+  }
+}
+
+void showBothSides(Scene& scene) {
+  for (const Object& object : scene.objects)
+    if (object.shape.is<Mesh>()) scene.materials[object.material].sides = ShadedSides::both;
+}
+
+/// A light that fades: its colour is what falls on a white surface at the distance of what is looked at.
+void letLightsReach(Scene& scene, const KindGiven& given, const Box3& seen) {
+  if (given.fading.empty()) return;
+  const Vec3 target = given.lookAt ? *given.lookAt : seen.empty() ? Vec3{} : seen.center();
+  for (const std::size_t number : given.fading)
+    match(scene.lights[number].light, [&](auto& light) {
+      if constexpr (requires { light.quadratic; }) {
+        const Vec3 way = light.position - target;
+        const Real square = dot(way, way);
+        if (square > 0 && std::isfinite(square)) light.color = light.color * square;
+      }
+    });
+  scene.kindDefaults.emplace_back("lights that reach what is looked at");
+}
+
+/// The light around a mesh that is rendered by itself: grey, lighter from above.
+Background studioBackground() {
+  Background background;
+  background.gradient = {Color(0.15), Color(0.3), Color(0.6), Color(0.8)};
+  background.elevations = {-90, -10, 20, 90};
+  return background;
+}
+
+/// The choices of options, below those that the scene has.
+void addKindChoices(Scene& scene, const Place& place) {
+  std::vector<Choice> choices;
+  const bool like = isGiven(scene, "like");
+  for (const KindChoice& choice : kKindChoices) {
+    if (isGiven(scene, choice.option)) continue;
+    if (choice.option == "width" && isGiven(scene, "height")) continue;
+    if (like && isConvention(findOption(choice.option))) continue;
+    choices.push_back({std::string(choice.option), std::string(choice.value), place});
+  }
+  scene.choices.insert(scene.choices.end(), choices.begin(), choices.end());
+}
+
+/// What shines on a mesh that has no light of its own.
+LightSource keyLight(const Camera& camera) {
+  constexpr Real kSize = 12;
+  LightSource light = sun(camera, kSize);
+  std::get<DirectionalLight>(light.light).color = Color(1.6);
+  return light;
+}
+
+bool isBareMesh(const Scene& scene) {
+  const std::span<const SceneFormat> formats = sceneFormats();
+  return std::any_of(formats.begin(), formats.end(), [&](const SceneFormat& format) {
+    return format.name == scene.format && format.readModel;
+  });
+}
+
+}  // namespace
+
+void completeBareMesh(Scene& scene) {
+  if (!isBareMesh(scene)) return;
+  const bool hasLights = !isPlainView(scene);
+  const Box3 box = bounds(scene);
+  if (scene.camera == framing(box)) {
+    scene.camera = framing(box, kPlainFov, kPlainAspect);
+    scene.kindDefaults.emplace_back("a camera that shows all objects");
+  }
+  if (!hasLights) {
+    scene.lights.clear();
+    const bool glows = givesLight(scene);
+    scene.lights = {keyLight(scene.camera)};
+    if (!glows) scene.background = studioBackground();
+    scene.kindDefaults.emplace_back(glows ? "a light" : "a light and a grey room around");
+  }
+  smoothMeshes(scene);
+  addKindChoices(scene, Place{.file = scene.file});
+}
+
+Box3 boundsOfInterest(const Scene& scene) {
+  constexpr Real kFlat = 0.02, kMuchLarger = 4;
+  std::vector<Box3> boxes;
+  for (const Object& object : scene.objects) {
+    const Box3 box = object.worldFromObject * prepare(object.shape).bounds();
+    if (!box.empty() && isFinite(box.size())) boxes.push_back(box);
+  }
+  const auto across = [](const Box3& box) { return length(box.size()); };
+  const auto largest = std::max_element(boxes.begin(), boxes.end(),
+                                        [&](const Box3& a, const Box3& b) { return across(a) < across(b); });
+  Box3 all, others;
+  for (const Box3& box : boxes) {
+    all.extend(box);
+    if (&box != &*largest) others.extend(box);
+  }
+  if (boxes.size() < 2) return all;
+  const Vec3 size = largest->size();
+  const bool flat = std::min({size.x, size.y, size.z}) <= kFlat * std::max({size.x, size.y, size.z});
+  return flat && across(*largest) > kMuchLarger * across(others) ? others : all;
+}
+
+void addKindDefaults(Scene& scene, const KindGiven& given, const Place& place) {
+  const Box3 seen = boundsOfInterest(scene);
+  addCamera(scene, given, seen);
+  for (Material& material : scene.materials)
+    if (material == Material{}) material = plainMaterial();
+  smoothMeshes(scene);
+  showBothSides(scene);
+  letLightsReach(scene, given, seen);
+  if (!givesLight(scene)) {
+    constexpr Real kSunSize = 3;
+    scene.background = sky();
+    scene.lights = {sun(scene.camera, kSunSize)};
+    scene.kindDefaults.emplace_back("a sky and a sun");
+  }
+  addKindChoices(scene, place);
+}
+
+}  // namespace trace

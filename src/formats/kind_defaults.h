@@ -1,0 +1,38 @@
+// The kind defaults: what a scene gets that leaves things to Trace, so that its first picture is worth
+// looking at (docs/trace-1.md). They hold in files that begin with `Trace 1` and for meshes rendered by
+// themselves. All of them are plain values of the Scene: written in another format, it looks the same.
+//
+// Scenes of the courses never come here.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "base/error.h"
+#include "scene/scene.h"
+
+namespace trace {
+
+/// What the file said, as far as defaults depend on it.
+struct KindGiven {
+  bool cameraPosition = false, cameraDirection = false;
+  std::optional<Vec3> lookAt{};
+  bool aspect = false;
+  /// Lights, by their numbers, of which nothing says how they fade.
+  std::vector<std::size_t> fading{};
+};
+
+/// Completes the scene. `place` is where the file says its kind; the choices of options carry it.
+void addKindDefaults(Scene& scene, const KindGiven& given, const Place& place);
+
+/// Completes the scene of a file of meshes that is rendered by itself: its meshes look smooth where they have
+/// no normals, and a better camera and light take the place of those of sceneOf() (formats/model.h). Any
+/// other scene stays as it is. Not for conversions, which keep what the file has.
+void completeBareMesh(Scene& scene);
+
+/// The bounds of what a person looks at: of all objects that end somewhere, but for a floor that is much
+/// larger than all that stands on it.
+Box3 boundsOfInterest(const Scene& scene);
+
+}  // namespace trace

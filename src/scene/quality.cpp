@@ -1,0 +1,128 @@
+#include "scene/quality.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "base/match.h"
+#include "base/text.h"
+#include "geometry/shapes/csg_tree.h"
+#include "scene/picture_size.h"
+
+namespace trace {
+namespace {
+
+struct QualityRow {
+  std::string_view name;
+  std::string_view spp, noiseTarget, depth, fireflyLimit;
+  bool denoise;
+};
+/// In the order of the enum. A level of 255 is a noise target of 0.004.
+constexpr std::array<QualityRow, 4> kQualities{{
+    {"none", "", "", "", "", false},
+    {"draft", "16", "0", "5", "8", true},
+    {"good", "64", "0.012", "8", "8", true},
+    {"final", "1024", "0.002", "16", "0", false},
+}};
+
+std::vector<Choice> choicesOfRow(const QualityRow& row) {
+  if (row.spp.empty()) return {};
+  const auto choice = [](std::string_view option, std::string_view value) {
+    return Choice{std::string(option), std::string(value), {}};
+  };
+  return {choice("spp", row.spp),
+          choice("noise-target", row.noiseTarget),
+          choice("denoise", row.denoise ? "on" : "off"),
+          choice("depth", row.depth),
+          choice("firefly-limit", row.fireflyLimit),
+          choice("sampling", "sobol"),
+          choice("integrator", "path")};
+}
+
+/// It is a point, or too small for paths to meet, or rays do not see it.
+bool isMissedByPaths(const Light& light) {
+  return match(light, [](const auto& l) {
+    if constexpr (requires { l.visible; }) return !(l.visible && l.hasSize());
+    return requires { l.position; }
+    || requires { l.direction; };
+  });
+}
+
+/// Light is bent in a body of it.
+bool bendsLight(const Material& material) {
+  constexpr Real kMuch = 0.3, kBends = 0.01;
+  const Phong phong = phongOf(material.model);
+  return maxComponent(phong.transmissive) >= kMuch && std::abs(phong.index - 1) > kBends;
+}
+
+bool isBent(const Scene& scene, const Shape& shape, std::uint32_t material) {
+  if (bendsLight(scene.materials[material])) return true;
+  const auto& parts = shape.operands().list();
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const Operand& part) { return isBent(scene, part.shape, part.material); });
+}
+
+/// Somebody gives the option, in the layer that gives the quality or a later one.
+bool isChosen(std::string_view option, std::initializer_list<std::span<const Choice>> layers) {
+  bool chosen = false;
+  for (const std::span<const Choice> layer : layers) {
+    const auto names = [&](std::string_view name) {
+      return std::any_of(layer.begin(), layer.end(), [&](const Choice& c) { return c.option == name; });
+    };
+    chosen = names(option) || (chosen && !names("quality"));
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::span<const Choice> choicesOf(Quality quality) {
+  static const std::array<std::vector<Choice>, kQualities.size()> kAll = [] {
+    std::array<std::vector<Choice>, kQualities.size()> all;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = choicesOfRow(kQualities[i]);
+    return all;
+  }();
+  return kAll[static_cast<std::size_t>(quality)];
+}
+
+bool setsOption(std::string_view quality, std::string_view option) {
+  for (std::size_t i = 0; i < kQualities.size(); ++i) {
+    if (kQualities[i].name != quality) continue;
+    const std::span<const Choice> own = choicesOf(static_cast<Quality>(i));
+    return std::any_of(own.begin(), own.end(), [&](const Choice& c) { return c.option == option; });
+  }
+  return false;
+}
+
+IntegratorKind integratorFor(const Scene& scene, const Settings& settings) {
+  if (settings.quality != Quality::final) return IntegratorKind::path;
+  const bool lamps = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                 [](const LightSource& source) { return isMissedByPaths(source.light); });
+  const bool glass = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+    return isBent(scene, object.shape, object.material);
+  });
+  return lamps && glass ? IntegratorKind::bdpt : IntegratorKind::path;
+}
+
+Settings settingsFor(const Scene& scene, std::initializer_list<std::span<const Choice>> layers) {
+  Settings settings = settingsFor(scene.camera, layers);
+  if (settings.quality == Quality::none || isChosen("integrator", layers)) return settings;
+  settings.integrator = integratorFor(scene, settings);
+  // How exact a light image is is not known, so that nothing can be denoised by it.
+  if (isBidirectional(settings) && !isChosen("denoise", layers)) settings.denoise = false;
+  return settings;
+}
+
+std::string qualityText(const Settings& settings) {
+  if (settings.quality == Quality::none) return "";
+  const auto value = [&](std::string_view option) { return findOption(option).get(settings); };
+  std::string text = "quality " + value("quality") + ": " + value("integrator");
+  text += settings.noiseTarget > 0 ? ", up to " : ", ";
+  text += counted(static_cast<std::uint64_t>(settings.spp), "sample") + " a pixel";
+  if (settings.noiseTarget > 0)
+    text += ", until its error is below " + toText(std::round(settings.noiseTarget * 2550) / 10) + " levels";
+  return text + (settings.denoise ? ", denoised" : "");
+}
+
+}  // namespace trace

@@ -1,0 +1,290 @@
+// Scenes that leave things to Trace: files of the kind `Trace 1`, bare meshes, and --quality.
+#include <gtest/gtest.h>
+
+#include "app/auto_exposure.h"
+#include "app/session.h"
+#include "formats/format.h"
+#include "formats/kind_defaults.h"
+#include "image/codec.h"
+#include "image/development.h"
+#include "image/srgb.h"
+#include "program.h"
+#include "scene/quality.h"
+#include "shading/lights/light.h"
+#include "support/paths.h"
+
+namespace trace::test {
+namespace {
+
+Scene read(const std::string& text, Messages& messages) { return readScene("kind.ray", text, messages); }
+Scene read(const std::string& text) {
+  Messages messages;
+  Scene scene = read(text, messages);
+  EXPECT_TRUE(messages.all().empty()) << text << toString(messages.all().front());
+  return scene;
+}
+std::string errorOf(const std::string& text) {
+  Messages messages;
+  try {
+    readScene("kind.ray", text, messages);
+    messages.throwIfFailed();
+  } catch (const Error& error) {
+    return toString(error.messages().front());
+  }
+  return "";
+}
+Affine placeOf(const std::string& text) { return read(text).objects.at(0).worldFromObject; }
+double distance(const Affine& a, const Affine& b) {
+  double most = 0;
+  for (int i = 0; i < 3; ++i) most = std::max(most, maxComponent(abs(a.row[i] - b.row[i])));
+  return most;
+}
+double meanLevel(const Picture& picture) {
+  double sum = 0;
+  for (const Color& c : picture.pixels) sum += luminanceOf(c);
+  return 255 * sum / static_cast<double>(picture.pixels.size());
+}
+
+using Kind = ProgramTest;
+
+TEST_F(Kind, ABareObjectIsAPictureWorthLookingAt) {
+  writeFile(path("ball.ray"), "Trace 1\nsphere { }\n");
+  const auto result = run({"ball.ray", "ball.png", "-w", "32", "--spp", "16"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  const Picture picture = readPicture(path("ball.png"));
+  EXPECT_EQ(picture.width, 32);
+  EXPECT_EQ(picture.height, 24);
+  EXPECT_GT(meanLevel(picture), 60);
+  EXPECT_LT(meanLevel(picture), 180);
+  double darkest = 255, brightest = 0;
+  for (const Color& c : picture.pixels) {
+    darkest = std::min(darkest, 255 * luminanceOf(c));
+    brightest = std::max(brightest, 255 * luminanceOf(c));
+  }
+  EXPECT_GT(brightest - darkest, 60) << "the ball is told from its background";
+  for (const char* said : {"Trace chose", "a camera that shows all objects", "a sky and a sun", "exposure",
+                           "quality good: path"})
+    EXPECT_NE(result.err.find(said), std::string::npos) << said << " in " << result.err;
+  const std::string lint = run({"lint", "ball.ray"}).err, info = run({"info", "ball.ray"}).out;
+  EXPECT_NE(lint.find("a sky and a sun"), std::string::npos) << lint;
+  EXPECT_NE(info.find("a sky and a sun"), std::string::npos) << info;
+}
+
+TEST_F(Kind, ABareMeshIsAPictureWorthLookingAt) {
+  for (const char* mesh : {"rabbit.ply", "knot.obj", "ring.off"}) {
+    const auto result =
+        run({test::sourceFolder() + "/scenes/meshes/" + mesh, "m.png", "-w", "32", "--spp", "16"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    const Picture picture = readPicture(path("m.png"));
+    EXPECT_GT(meanLevel(picture), 60) << mesh;
+    EXPECT_LT(meanLevel(picture), 180) << mesh;
+    EXPECT_NE(result.err.find("a light and a grey room around"), std::string::npos) << result.err;
+  }
+}
+
+TEST(AutomaticExposure, MakesUpForFaintAndForStrongLight) {
+  const auto stops = [](const std::string& color) {
+    Scene scene = read(
+        "Trace 1\nsettings { width = 24; spp = 1 }\nsphere { }\n"
+        "directional_light { direction = (0.2, -1, -1); color = " +
+        color + " }\n");
+    const Settings settings = settingsFor(scene, {scene.choices});
+    EXPECT_TRUE(settings.autoExposure);
+    Session session;
+    session.open(std::move(scene), settings);
+    session.build();
+    EXPECT_FALSE(session.settings().autoExposure);
+    EXPECT_EQ(session.settings().exposure, session.measuredExposure());
+    return session.measuredExposure();
+  };
+  const Real one = stops("(1, 1, 1)");
+  EXPECT_NEAR(stops("(0.0009765625, 0.0009765625, 0.0009765625)"), one + 10, 0.011);
+  EXPECT_NEAR(stops("(1024, 1024, 1024)"), one - 10, 0.011);
+}
+
+TEST(AutomaticExposure, BringsTheMeanToTheMiddleAndKeepsBrightParts) {
+  Development development;
+  development.transfer = Transfer::srgb;
+  development.tone = Tone::filmic;
+  const auto shown = [&](const Color& color, Real stops) {
+    Development with = development;
+    with.exposure = stops;
+    return luminanceOf(developed(color, with));
+  };
+  Picture picture(20, 10);
+  for (Color& c : picture.pixels) c = Color(0.01);
+  EXPECT_NEAR(shown(Color(0.01), exposureFor(picture, development)), 0.52, 0.01);
+  for (int x = 0; x < 20; ++x) picture.at(x, 4) = Color{2, 0.2, 0.2};  // a tenth, red
+  const Real stops = exposureFor(picture, development);
+  EXPECT_NEAR(shown(Color{2, 0.2, 0.2}, stops), 0.85, 0.02);
+  EXPECT_LT(shown(Color(0.01), stops), 0.5);
+  for (Color& c : picture.pixels) c = Color(0);
+  EXPECT_EQ(exposureFor(picture, development), 0);
+  picture.at(3, 3) = Color(0.1);  // on black, what is seen counts
+  EXPECT_NEAR(shown(Color(0.1), exposureFor(picture, development)), 0.52, 0.01);
+}
+
+TEST(KindDefaults, LeaveFilesOfTheCoursesAsTheyAre) {
+  Messages messages;
+  const Scene scene =
+      readScene("old.ray",
+                "SBT-raytracer 1.0\npoint_light { position = (0, 3, 4); color = (1, 1, 1); }\n"
+                "sphere { }\nplane { }\n",
+                messages);
+  EXPECT_TRUE(scene.kindDefaults.empty());
+  EXPECT_TRUE(scene.choices.empty());
+  EXPECT_EQ(scene.camera, Camera{});
+  EXPECT_EQ(std::get<PointLight>(scene.lights.at(0).light).color, Color(1));
+  EXPECT_EQ(scene.materials.at(0), Material{});
+  EXPECT_EQ(scene.objects.at(1).worldFromObject, Affine{});
+}
+
+TEST_F(Kind, ConvertedToTheCoursesFormatItIsTheSamePicture) {
+  writeFile(path("kind.ray"),
+            "Trace 1\nplane { material = { library = oak } }\n"
+            "translate(0, 1, 0) { rotate x -90 { cylinder { material = { library = gold } } } }\n");
+  EXPECT_EQ(run({"convert", "kind.ray", "plain.ray"}).code, 0);
+  EXPECT_TRUE(readFile(path("plain.ray")).starts_with("SBT-raytracer"));
+  for (const std::string name : {"kind", "plain"})
+    EXPECT_EQ(run({name + ".ray", name + ".exr", "-w", "24", "--quality", "draft"}).code, 0);
+  EXPECT_EQ(readPicture(path("kind.exr")), readPicture(path("plain.exr")));
+}
+
+TEST(KindDefaults, AnglesAreInDegrees) {
+  const std::string old = "SBT-raytracer 1.1\n", kind = "Trace 1\n";
+  const Affine turned = placeOf(old + "rotate y 30 deg { box { } }");
+  EXPECT_EQ(placeOf(kind + "rotate y 30 deg { box { } }"), turned);
+  EXPECT_EQ(placeOf(kind + "rotate y 30 { box { } }"), turned);
+  EXPECT_EQ(placeOf(kind + "rotate(0, 1, 0, 30, box { })"), turned);
+  EXPECT_LT(
+      distance(placeOf(kind + "rotate y (0.5 rad) { box { } }"), placeOf(old + "rotate y 0.5 { box { } }")),
+      1e-15);
+  EXPECT_LT(distance(placeOf(kind + "rotate y atan2(1, 1) { box { } }"),
+                     placeOf(old + "rotate y atan2(1, 1) { box { } }")),
+            1e-15);
+  EXPECT_EQ(placeOf(kind + "scale(sin(30)) { box { } }"), placeOf(old + "scale(sin(30 deg)) { box { } }"));
+  EXPECT_EQ(placeOf(kind + "scale(cos(tau)) { box { } }"), Affine{});
+  EXPECT_EQ(read(kind + "camera { fov = 40 deg; }\nbox { }").camera.fov, 40);
+}
+
+TEST(KindDefaults, AGroundIsLevel) {
+  const Affine place = placeOf("Trace 1\nplane { }\nsphere { }");
+  EXPECT_EQ(linear(place, {0, 0, 1}), (Vec3{0, 1, 0}));
+}
+
+TEST(KindDefaults, UnknownWordsAreErrors) {
+  const std::string field = errorOf("Trace 1\nsphere { radios = 3 }");
+  EXPECT_NE(field.find("kind.ray:2:10: error: sphere has no field \"radios\""), std::string::npos) << field;
+  const std::string word = errorOf("Trace 1\nspheer { }");
+  EXPECT_NE(word.find("did you mean \"sphere\""), std::string::npos) << word;
+  EXPECT_NE(errorOf("Trace 2\nsphere { }").find("expected 1 after Trace"), std::string::npos);
+  EXPECT_NE(errorOf("Trace\r\nsphere { }").find("expected 1 after Trace"), std::string::npos);
+  EXPECT_EQ(errorOf("SBT-raytracer 1.0\nsphere { radios = 3; }"), "");
+}
+
+TEST(KindDefaults, ALightReachesWhatTheCameraLooksAt) {
+  const std::string camera = "Trace 1\ncamera { position = (0, 0, 9); look_at = (0, 1, 0) }\nsphere { }\n";
+  const auto light = [&](const std::string& text) {
+    return std::get<PointLight>(read(camera + text).lights.at(0).light);
+  };
+  EXPECT_EQ(light("point_light { position = (3, 5, 0) }").color, Color(25)) << "white at the distance 5";
+  EXPECT_EQ(light("point_light { position = (3, 5, 0); color = (2, 1, 0) }").color, (Color{50, 25, 0}));
+  EXPECT_EQ(light("point_light { position = (3, 5, 0); quadratic_attenuation_coeff = 0; "
+                  "constant_attenuation_coeff = 1 }")
+                .color,
+            Color(1));
+  EXPECT_NEAR(light("point_light { position = (3, 5, 0); power = 40 }").color.r, 40 / (4 * kPi * kPi), 1e-12);
+  EXPECT_NE(errorOf(camera + "point_light { position = (3, 5, 0); power = -1 }").find("watts"),
+            std::string::npos);
+  EXPECT_NE(errorOf("SBT-raytracer 1.0\npoint_light { position = (3, 5, 0); }").find("expected a color"),
+            std::string::npos);
+}
+
+TEST(KindDefaults, TheCameraFollowsWhatIsSaidOfIt) {
+  const std::string objects = "translate(10, 0, 0) { sphere { } }\n";
+  const Camera whole = read("Trace 1\n" + objects).camera;
+  EXPECT_GT(dot(whole.viewdir, Vec3{10, 0, 0} - whole.position), 0);
+  const Camera placed = read("Trace 1\ncamera { position = (10, 0, 9) }\n" + objects).camera;
+  EXPECT_EQ(placed.viewdir, (Vec3{0, 0, -1})) << "looks at the middle of the objects";
+  const Camera told =
+      read("Trace 1\ncamera { position = (1, 2, 3); look_at = (1, 2, 0) }\n" + objects).camera;
+  EXPECT_EQ(told.position, (Vec3{1, 2, 3}));
+  EXPECT_EQ(told.viewdir, (Vec3{0, 0, -1}));
+  // A floor that goes on far beyond what stands on it does not count.
+  const std::string floor = "scale(100, 0.01, 100) { box { } }\n";
+  const Box3 seen = boundsOfInterest(read("Trace 1\n" + objects + floor));
+  EXPECT_LT(length(seen.size()), 5);
+  const std::string plane = "plane { }\n";
+  EXPECT_LT(length(boundsOfInterest(read("Trace 1\n" + objects + plane)).size()), 5);
+}
+
+TEST(KindDefaults, LeaveLightThatIsThereAlone) {
+  for (const char* light :
+       {"background { color = (0, 0, 0) }", "directional_light { direction = (0, -1, 0) }",
+        "sphere { material = { emissive = (1, 1, 1) } }"}) {
+    const Scene scene = read(std::string("Trace 1\nbox { }\n") + light);
+    EXPECT_TRUE(scene.background.gradient.empty()) << light;
+    EXPECT_LE(scene.lights.size(), 1u) << light;
+  }
+  EXPECT_EQ(read("Trace 1\nbox { }").background.gradient.size(), 4u);
+}
+
+TEST(KindDefaults, StandBelowTheFileAndTheCommandLine) {
+  const Scene scene = read("Trace 1\nsettings { transfer = linear; quality = draft }\nsphere { }");
+  const std::vector<Choice> line{{"tone", "clamp", {}}};
+  const Settings settings = settingsFor(scene, {scene.choices, line});
+  EXPECT_EQ(settings.transfer, Transfer::linear);
+  EXPECT_EQ(settings.quality, Quality::draft);
+  EXPECT_EQ(settings.tone, Tone::clamp);
+  EXPECT_EQ(settings.fresnel, Fresnel::exact);
+  EXPECT_EQ(settings.spp, 16);
+}
+
+const std::string kGlass =
+    "translate(2, 0, 0) { sphere { material = { transmissive = (1, 1, 1); index = 1.5 } } }\n";
+
+TEST(QualityOption, PicksTheIntegratorThatTheSceneNeeds) {
+  const auto integrator = [](const std::string& text, const std::string& quality,
+                             std::vector<Choice> line = {}) {
+    const Scene scene = read("Trace 1\nsphere { }\n" + text);
+    line.insert(line.begin(), {"quality", quality, {}});
+    return settingsFor(scene, {scene.choices, line}).integrator;
+  };
+  const std::string lamp = "point_light { position = (0, 5, 5) }\n";
+  EXPECT_EQ(integrator(lamp, "good"), IntegratorKind::path);
+  EXPECT_EQ(integrator(kGlass, "final"), IntegratorKind::bdpt) << "the sun shines through the glass";
+  EXPECT_EQ(integrator("background { gradient = ((1, 1, 1)) }\n" + kGlass, "final"), IntegratorKind::path)
+      << "a sky is met by paths";
+  EXPECT_EQ(integrator(lamp + kGlass, "final"), IntegratorKind::bdpt);
+  EXPECT_EQ(integrator(lamp + "union { sphere { } " + kGlass + " }", "final"), IntegratorKind::bdpt)
+      << "glass within a solid";
+  EXPECT_EQ(integrator(lamp + kGlass, "good"), IntegratorKind::path);
+  EXPECT_EQ(integrator(lamp + kGlass, "final", {{"integrator", "photon", {}}}), IntegratorKind::photon);
+}
+
+TEST(QualityOption, OverridesWhatTheSceneSaysOfSamplesAndIsOverridden) {
+  const Scene scene = read("Trace 1\nsettings { spp = 9; denoise = off }\nsphere { }");
+  const std::vector<Choice> draft{{"quality", "draft", {}}},
+      more{{"spp", "25", {}}, {"quality", "draft", {}}};
+  EXPECT_EQ(settingsFor(scene, {scene.choices}).spp, 9);
+  EXPECT_EQ(settingsFor(scene, {scene.choices, draft}).spp, 16);
+  EXPECT_EQ(settingsFor(scene, {scene.choices, more}).spp, 25);
+  EXPECT_EQ(chooserOf(findOption("spp"), {scene.choices, draft}), "command line, by quality");
+}
+
+TEST_F(Kind, QualityServesTheScenesOfTheCoursesToo) {
+  writeFile(path("old.ray"),
+            "SBT-raytracer 1.0\ncamera { position = (0, 0, 5); viewdir = (0, 0, -1); updir = (0, 1, 0); }\n"
+            "point_light { position = (2, 2, 5); color = (20, 20, 20); }\n"
+            "sphere { material = { diffuse = (1, 0, 0); }; }\n");
+  const auto plain = run({"old.ray", "a.png", "-w", "24"}),
+             draft = run({"old.ray", "b.png", "-w", "24", "--quality", "draft"});
+  EXPECT_EQ(plain.err.find("quality"), std::string::npos) << plain.err;
+  EXPECT_NE(draft.err.find("quality draft: path, 16 samples a pixel, denoised"), std::string::npos)
+      << draft.err;
+  EXPECT_NE(run({"old.ray", "c.png", "--quality", "best"}).err.find("none | draft | good | final"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace trace::test
