@@ -174,7 +174,7 @@ LightSource keyLight(const Camera& camera) {
 bool isBareMesh(const Scene& scene) {
   const std::span<const SceneFormat> formats = sceneFormats();
   return std::any_of(formats.begin(), formats.end(), [&](const SceneFormat& format) {
-    return format.name == scene.format && format.readModel;
+    return format.name == scene.format && (format.readModel || format.readModelAt);
   });
 }
 
