@@ -66,12 +66,13 @@ class PhotonEmitter {
     Real share = 0, count = 1;    ///< what of the light it stands for, and among how many
     Real law = 0;                 ///< what falls on the pane that it has crossed last
     int bounces = 0, scatterings = 0;
-    int panes = 0;             ///< of the bounces, on the way straight from a light of the scene
-    bool straight = true;      ///< it has met nothing but panes that bend nothing
-    bool asked = true;         ///< shadow rays bring it to media, if a light of the scene sent it
-    bool gathered = false;     ///< it is not what shadow rays bring
-    bool scattered = false;    ///< by a surface, a body or a medium
-    bool offSurface = false;   ///< a surface has sent it on its way now, and not a light or a medium
+    int panes = 0;           ///< of the bounces, on the way straight from a light of the scene
+    bool straight = true;    ///< it has met nothing but panes that bend nothing
+    bool asked = true;       ///< shadow rays bring it to media, if a light of the scene sent it
+    bool gathered = false;   ///< it is not what shadow rays bring
+    bool scattered = false;  ///< by a surface, a body or a medium
+    bool offSurface =
+        false;  ///< a surface has sent it evenly on its way now, no mirror or lobe, light or medium
     bool mediumFirst = false;  ///< a medium scattered it before any surface did
 
     /// Nothing but panes is on its way so far.

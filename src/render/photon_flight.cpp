@@ -225,7 +225,8 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt,
   f.law = f.straight && f.light ? fallsOn(f, f.hit->surface.point) : 0;
   f.ray = f.hit->leave(direction);
   f.inside = there;
-  f.offSurface = true;
+  const bool intoLobe = choice >= mirrors + passes && choice < mirrors + passes + lobe;
+  f.offSurface = intoLobe && at.sendsEvenly();
   return true;
 }
 

@@ -20,7 +20,7 @@ struct Photon {
   Vec3 normal;     ///< of the surface, on the side where it arrived; 0 in a medium
   Color power;  ///< what it brings: divided by an area, pi times the colour of a light. In a medium times the
                 ///< length for which it stands, which is divided by a volume
-  Real flown = kInfinity;  ///< the distance from the surface that sent it here; infinite if none did
+  Real flown = kInfinity;  ///< the distance from the surface that sent it here evenly; infinite if none did
 };
 
 class PhotonMap {

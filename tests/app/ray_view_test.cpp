@@ -61,7 +61,7 @@ TEST(RayView, TellsHowManyPhotonsWereCountedAndHowFarAway) {
   Settings settings;
   settings.width = 20;
   settings.integrator = IntegratorKind::photon;
-  settings.photons = 2000;
+  settings.photons = 100000;  // few lie too far apart to tell of what is near
   Session session;
   session.open(mirrorScene(), settings);
   session.build();

@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 
 struct Report {
   const char* file;
-  /// Of 255: the mean of the picture; what its middle shows; or its corners, from the top left.
-  std::optional<Color> mean{}, middle{};
+  /// Of 255: what the middle of the picture shows; or its corners, from the top left.
+  std::optional<Color> middle{};
   std::vector<Color> corners{};
   const char* warning = "";  ///< what has to be said; "" for nothing in particular
   double least = 15;         ///< of the brightest channel of the mean
@@ -64,7 +64,7 @@ Color hue(const Color& color) {
 
 const std::vector<Report>& reports() {
   static const std::vector<Report> kReports{
-      {.file = "s12_degenerate_normal_flip.stl", .mean = Color(82), .warning = "are turned"},
+      {.file = "s12_degenerate_normal_flip.stl", .warning = "are turned", .least = 60},
       {.file = "o15_Tr1.obj", .warning = "Tr 1 without d"},
       {.file = "p04_face_uv.ply", .corners = kQuad},
       {.file = "p07_face_colour.ply"},
@@ -115,10 +115,6 @@ TEST(Reports, EachFileIsAsItsUserExpects) {
     ASSERT_NO_THROW(rendered = render(folder + report.file)) << report.file;
     const Color mean = meanOf(rendered.picture);
     EXPECT_GT(maxComponent(mean), report.least) << report.file << " is black: " << rendered.warnings;
-    if (report.mean)
-      EXPECT_TRUE(near(mean, *report.mean, 4))
-          << report.file << ": " << mean.r << " " << mean.g << " " << mean.b << "\n"
-          << rendered.warnings;
     EXPECT_NE(rendered.warnings.find(report.warning), std::string::npos)
         << report.file << ": " << rendered.warnings;
     EXPECT_EQ(rendered.warnings.find("cannot be read"), std::string::npos)

@@ -135,13 +135,13 @@ TEST(Composer, OtherShapesBecomeTriangles) {
 
 TEST(Composer, NothingIsWrittenWhereNoObjectIsLeft) {
   Messages messages;
-  const Scene endless = load("plane { } scale(1, 0, 1, sphere { })").scene;
+  const Scene endless = load("plane { }").scene;
   try {
     writeComposer(endless, "a.out", {}, messages);
     ADD_FAILURE() << "a file without objects";
   } catch (const Error& error) {
     EXPECT_EQ(error.fault(), Fault::scene);
-    EXPECT_NE(std::string(error.what()).find("expected a scene with meshes, found 1 plane, 1 sphere"),
+    EXPECT_NE(std::string(error.what()).find("expected a scene with meshes, found 1 plane"),
               std::string::npos)
         << error.what();
   }

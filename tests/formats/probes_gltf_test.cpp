@@ -133,9 +133,9 @@ TEST(Probes, OfGltf) {
   };
   const json played = {{"samplers", {sampler({1, 2, 3}, 3), sampler({0, 0, 1, 0}, 4), sampler({0.5}, 1)}},
                        {"channels", json::array()}};
-  moves.set("/animations", {played});
+  moves.set("/animations", json::array({played}));
   const auto channel = [](int of, const char* path) {
-    return json{{{"sampler", of}, {"target", {{"node", 0}, {"path", path}}}}};
+    return json::array({{{"sampler", of}, {"target", {{"node", 0}, {"path", path}}}}});
   };
   p.set("animations", "/animations/0/channels", channel(0, "translation"), "", moves);
   p.set("animation of rotation", "/animations/0/channels", channel(1, "rotation"), "", moves);
@@ -264,7 +264,7 @@ TEST(Probes, OfGltfExtensions) {
 
   const auto light = [](json values) {
     return with("/extensionsUsed", {"KHR_lights_punctual"})
-        .set("/extensions/KHR_lights_punctual/lights", {std::move(values)})
+        .set("/extensions/KHR_lights_punctual/lights", json::array({std::move(values)}))
         .set("/nodes/0/extensions/KHR_lights_punctual/light", 0);
   };
   const std::string lights = "/extensions/KHR_lights_punctual/lights/0/";

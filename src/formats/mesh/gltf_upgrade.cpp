@@ -102,7 +102,7 @@ class Upgrade {
       return scene;
     });
     link(root_, to_, "scene", "scenes");
-    if (!object(root_, "animations").empty()) to_["animations"] = {animation()};
+    if (!object(root_, "animations").empty()) to_["animations"] = json::array({animation()});
     return std::move(to_);
   }
 

@@ -119,8 +119,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
     Sampler numbers = sampler.branch(kMedium);
-    media = throughMedia(tracer, ray, end, inside, onlyShines || path.told || path.toldOfMedia ? 0 : 1,
-                         path.weight, numbers.branch(0));
+    media = throughMedia(tracer, ray, end, inside, onlyShines || path.told ? 0 : 1, path.weight,
+                         numbers.branch(0));
     if (const auto place = placeByChance(*media, path.weight, numbers.next()))
       return scattered(tracer, ray, *media, *place, path, inside, sampler, after);
   }
@@ -182,14 +182,15 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
               at.hasDisk(std::sqrt(near.radius2), sampler.branch(kDisk));
     if (gathers) at.addPhotons(sum, Term::Kind::photons, near, true);
   }
-  const bool glossy = isGlossy(at.bsdf()), asks = !gathers && !path.told;
+  const bool glossy = isGlossy(at.bsdf()), told = path.told && !(path.near && at.sendsEvenly());
+  const bool asks = !gathers && !told;
   if (asks) {
     if (!world.lights().empty()) at.addLights(sum, sampler);
     at.addCaustics(sum, path.maps->caustics, sampler.branch(kCaustic));
   }
   // Photons tell what is scattered. Not where a part of the disk on which they lie is beyond an edge, or
   // below what stands there: from there the path goes on. So it does to surfaces that are near compared with
-  // the disk, whose light changes within it.
+  // the disk, whose light changes within it, but for what their mirrors and lobes throw.
   constexpr Real kApart = 4;  // radii of the disk: then light of a small source is blurred by 4 % at most
   bool tells = asks && photonsTell_ && !glossy && scatters(at.bsdf());
   Real apart = 0;
@@ -228,7 +229,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     const Real goes = survival(path.depth, path.weight * weight);
     if (path.depth >= depth_ && kind != RayKind::bounce)
       sum.stop(DepthLimit{kind, depth_});
-    else if (!(goes > 0) || (path.told && photonsBring))
+    else if (!(goes > 0) || ((kind == RayKind::bounce ? told : path.told) && photonsBring))
       sum.stop(BelowThreshold{kind, 0, 0});
     else if (goes < 1 && sampler.branch(kRoulette).next() >= goes)
       sum.stop(Roulette{kind, goes});
@@ -255,8 +256,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     next.bounced = path.bounced || kind == RayKind::bounce;
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
     const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
-    next.toldOfMedia = tells && kind == RayKind::bounce;
-    next.told = path.told || (next.toldOfMedia && !(met && met->t < apart));
+    next.told = (kind == RayKind::bounce ? told : path.told) || (tells && kind == RayKind::bounce);
+    next.near = tells && kind == RayKind::bounce && met && met->t < apart;
     const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
     const Real part = kind == RayKind::bounce ? allowedPart(tracer, path.weight * factor * arriving) : 1;
     sum.add(term, factor * part, arriving, {density, 0, 1});

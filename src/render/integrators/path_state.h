@@ -21,8 +21,8 @@ struct PathTracer::Path {
   bool asked = false;
   /// Photons told what is scattered where it arrives already where it comes from: it sees only what shines.
   bool told = false;
-  bool toldOfMedia = false;  ///< likewise of what media scatter on the ray
-  bool bounced = false;      ///< photons were asked what mirrors and glass bring to where it was scattered
+  bool near = false;     ///< but for what a surface as near as this sends evenly
+  bool bounced = false;  ///< photons were asked what mirrors and glass bring to where it was scattered
 };
 
 /// A place where a medium scatters a path, until it is known what the ray from there brings.
