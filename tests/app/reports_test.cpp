@@ -120,8 +120,9 @@ TEST(Reports, EachFileIsAsItsUserExpects) {
     EXPECT_EQ(rendered.warnings.find("cannot be read"), std::string::npos)
         << report.file << ": " << rendered.warnings;
     const int w = rendered.picture.width, h = rendered.picture.height;
-    if (report.middle)
+    if (report.middle) {
       EXPECT_TRUE(near(rendered.picture.at(w / 2, h / 2) * 255, *report.middle, 2)) << report.file;
+    }
     if (report.corners.empty()) continue;
     for (int corner = 0; corner < 4; ++corner) {
       const Color at = rendered.picture.at(corner % 2 ? 2 * w / 3 : w / 3, corner / 2 ? 2 * h / 3 : h / 3);
