@@ -231,7 +231,8 @@ Model modelBy(const SceneFormat& row, const std::string& file, std::string_view 
   return row.readModelAt ? row.readModelAt(file, text, messages, time) : row.readModel(file, text, messages);
 }
 
-/// Of a model that moves, at some moments from its first key to its last: one camera sees all of it.
+/// The bounds of a model that moves, at some moments from its first key to its last: one camera sees all of
+/// it.
 Box3 boundsOverTime(const SceneFormat& row, const std::string& file, std::string_view text,
                     const std::pair<Real, Real>& keys) {
   constexpr int kMoments = 5;

@@ -89,7 +89,8 @@ Scene readScene(const std::string& file, std::string_view bytes, Messages& messa
 /// cannot be read.
 bool changesWithTime(const std::string& file, std::string_view bytes);
 
-/// The meshes in the bytes of a file of a format with `readModel`, as they are at the time. Throws as readScene().
+/// The meshes in the bytes of a file of a format with `readModel`, as they are at the time. Throws as
+/// readScene().
 Model readModel(const std::string& file, std::string_view bytes, Messages& messages, SceneTime& time);
 /// At the time 0.
 Model readModel(const std::string& file, std::string_view bytes, Messages& messages);

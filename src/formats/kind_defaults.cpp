@@ -163,7 +163,7 @@ void addKindChoices(Scene& scene, const Place& place) {
   scene.choices.insert(scene.choices.end(), choices.begin(), choices.end());
 }
 
-/// What shines on a mesh that has no light of its own.
+/// The light of a mesh that has none of its own.
 LightSource keyLight(const Camera& camera) {
   constexpr Real kSize = 12;
   LightSource light = sun(camera, kSize);

@@ -14,7 +14,7 @@
 
 namespace trace {
 
-/// What the file said, as far as defaults depend on it.
+/// The parts of a file on which defaults depend.
 struct KindGiven {
   bool cameraPosition = false, cameraDirection = false;
   std::optional<Vec3> lookAt{};

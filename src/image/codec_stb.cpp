@@ -254,7 +254,8 @@ Raster decodeTga(std::string_view bytes, const PictureLimits& limits) {
     throw std::runtime_error("a table of colours that does not begin at 0 is not read");
   Raster raster = decodeByStb(bytes, limits);
   TgaAlpha alpha = tgaAlpha(bytes);
-  if (raster.hasAlpha() && alpha == TgaAlpha::unsaid && isNowhere(raster)) alpha = TgaAlpha::none;  // left at 0
+  if (raster.hasAlpha() && alpha == TgaAlpha::unsaid && isNowhere(raster))
+    alpha = TgaAlpha::none;  // left at 0
   if (raster.hasAlpha() && alpha == TgaAlpha::none) raster = withoutAlpha(raster);
   if (raster.hasAlpha() && alpha == TgaAlpha::premultiplied) divideByAlpha(raster);
   const bool mirrored = bytes.size() > kDescriptor && (bytes[kDescriptor] & kFromRight) != 0;

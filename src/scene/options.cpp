@@ -1253,14 +1253,15 @@ const std::array kOptions{
          .least = 0,
          .most = 1e9,
          .unit = "seconds"}),
-    row<&Settings::maxMemory>({.name = "max-memory",
-                               .group = "Resources",
-                               .help = "MiB of memory that a scene may take; 0 allows half of what the machine has",
-                               .source = "",
-                               .repeats = Repeats::nothing,
-                               .least = 0,
-                               .most = 1 << 24,
-                               .unit = "MiB"}),
+    row<&Settings::maxMemory>(
+        {.name = "max-memory",
+         .group = "Resources",
+         .help = "MiB of memory that a scene may take; 0 allows half of what the machine has",
+         .source = "",
+         .repeats = Repeats::nothing,
+         .least = 0,
+         .most = 1 << 24,
+         .unit = "MiB"}),
 };
 
 // --- every field has a row: count the members of Settings by how many initialisers it takes -----------

@@ -199,7 +199,7 @@ class InventorWriter {
 
   // --- looks ---
 
-  /// What the object looks like, written once: a reader that shares meshes asks for the same nodes before
+  /// The looks of the object, written once: a reader that shares meshes asks for the same nodes before
   /// them.
   void looks(const Object& object, const std::vector<std::uint32_t>& used, bool hasUv) {
     std::string before = std::exchange(out_, {});

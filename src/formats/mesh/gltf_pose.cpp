@@ -83,7 +83,7 @@ class Curve {
   enum Row : std::size_t { inTangent, point, outTangent };
 
   std::vector<double> key(std::size_t k) const { return row(k, point); }
-  /// Of a cubic spline three for each key, else one.
+  /// A cubic spline has three for each key, others have one.
   std::vector<double> row(std::size_t k, Row which) const {
     std::vector<double> numbers;
     const std::size_t first = (isCubic_ ? 3 * k + which : k) * width_;

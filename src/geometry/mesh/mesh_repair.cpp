@@ -49,7 +49,8 @@ bool isEar(const MeshData& mesh, std::span<const std::uint32_t> corners, std::si
   for (std::uint32_t other : corners) {
     if (other == ear[0] || other == ear[1] || other == ear[2]) continue;
     const Vec3 p = at(mesh, other);
-    if (sideOf(a, b, p, normal) >= 0 && sideOf(b, c, p, normal) >= 0 && sideOf(c, a, p, normal) >= 0) return false;
+    if (sideOf(a, b, p, normal) >= 0 && sideOf(b, c, p, normal) >= 0 && sideOf(c, a, p, normal) >= 0)
+      return false;
   }
   return true;
 }
