@@ -67,17 +67,19 @@ TEST(RayView, TellsHowManyPhotonsWereCountedAndHowFarAway) {
   session.build();
   const RayTree tree = session.explain(10, 16, 0).tree;
   std::size_t told = 0;
-  for (std::size_t i = 0; i < tree.nodes.size(); ++i)
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    const auto rows = numbersOf(tree, static_cast<int>(i), session.scene());
+    auto row = rows.begin();
     for (const Term& term : tree.nodes[i].terms) {
       if (!term.photons) continue;
-      const auto rows = numbersOf(tree, static_cast<int>(i), session.scene());
-      const auto row =
-          std::find_if(rows.begin(), rows.end(), [](const auto& each) { return each.first == "  photons"; });
+      row = std::find_if(row, rows.end(), [](const auto& each) { return each.first == "  photons"; });
       ASSERT_NE(row, rows.end());
       EXPECT_TRUE(row->second.starts_with(counted(term.photons->count, "photon") + " within "))
           << row->second;
+      ++row;
       ++told;
     }
+  }
   EXPECT_GT(told, 0u);
 }
 
