@@ -155,6 +155,9 @@ TEST_F(Cli, EachCommandHasItsOwnHelp) {
     EXPECT_EQ(run({name, "-h"}).out, r.out);
     EXPECT_EQ(run({"help", name, "all"}).out, run({name, "--help", "all"}).out);
     for (const cli::Flag& flag : cli::flags()) {
+      if (flag.name == "output") {
+        EXPECT_EQ(flag.commands.has(command.verb), !command.output.empty()) << name << " says what -o names";
+      }
       const bool told = r.out.find("--" + std::string(flag.name)) != std::string::npos;
       EXPECT_TRUE(told || !flag.commands.has(command.verb)) << name << " " << flag.name;
     }

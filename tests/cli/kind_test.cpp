@@ -172,6 +172,14 @@ TEST(KindDefaults, AGroundIsLevel) {
   EXPECT_EQ(linear(place, {0, 0, 1}), (Vec3{0, 1, 0}));
 }
 
+TEST(KindDefaults, WordsOfPovRayAreTranslated) {
+  EXPECT_TRUE(contains(errorOf("Trace 1\nlight_source { }"), "point_light {"));
+  EXPECT_TRUE(contains(errorOf("Trace 1\ncube { }"), "box { }"));
+  EXPECT_TRUE(contains(errorOf("Trace 1\nsphere { center = (0, 1, 0); }"), "translate("));
+  EXPECT_TRUE(contains(errorOf("Trace 1\nsphere { pigment = red; }"), "diffuse ="));
+  EXPECT_TRUE(contains(errorOf("Trace 1\nsphere { material = { diffuse = White; } }"), "(1, 1, 1) is white"));
+}
+
 TEST(KindDefaults, UnknownWordsAreErrors) {
   const std::string field = errorOf("Trace 1\nsphere { radios = 3 }");
   EXPECT_NE(field.find("kind.ray:2:10: error: sphere has no field \"radios\""), std::string::npos) << field;
