@@ -32,15 +32,16 @@ constexpr std::pair<std::string_view, std::string_view> kInstead[]{
     {"light_source", "Trace has point_light { position = (2, 4, 3); color = (1, 1, 1); }"},
     {"light", "Trace has point_light { }, directional_light { }, spot_light { } and rectangle_light { }"},
     {"cube", "Trace has box { }, of side 1 around the origin"},
-    {"center", "translate(x, y, z, sphere { }) puts it there"},
-    {"centre", "translate(x, y, z, sphere { }) puts it there"},
-    {"radius", "scale(2, sphere { }) makes it twice as large"},
+    {"center", "translate(x, y, z) { sphere { } } puts it there"},
+    {"centre", "translate(x, y, z) { sphere { } } puts it there"},
     {"pigment", "Trace has diffuse = (red, green, blue); in a material"},
     {"finish", "Trace has specular, shininess and reflective in a material"},
     {"interior", "Trace has transmissive and index in a material"},
     {"location", "Trace has position = (x, y, z);"},
     {"merge", "Trace has union { }"},
-    {"object", "Trace places any object itself: translate(x, y, z, sphere { })"},
+    {"normal",
+     "rotate x -90 deg { plane { } } is a floor; bump = texture(noise { }, 0.1) in a material bends normals"},
+    {"object", "Trace places any object itself: translate(x, y, z) { sphere { } }"},
 };
 
 /// Words of other languages by which a file says that more of the scene stands elsewhere, or is to be
@@ -169,6 +170,7 @@ void Findings::unknownField(std::string_view owner, const Item& field,
   if (!isOfKind() && again(key)) return;
   std::string hint;
   if (warnings_.size() < kFullWarnings) hint = meant(name, known);
+  if (owner == "sphere" && name == "radius") hint = "scale(2) { sphere { } } makes it twice as large";
   if (warnings_.size() < kFullWarnings && hint.empty()) hint = allOf(known);
   if (isOfKind())
     return error(field, std::string(owner) + " has no field " + quotedStart(name), std::move(hint));

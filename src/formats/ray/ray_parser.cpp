@@ -337,7 +337,9 @@ class Parser {
     } else {
       const std::string_view text = textAt(at_);
       fail(at_, std::string("expected ") + expected + ", found " + shown(peek()),
-           looksLikeFile(text) ? quotesHint(text) : std::string());
+           looksLikeFile(text) ? quotesHint(text)
+           : peek() == '<'     ? "a point or a colour is (x, y, z), and a field name = value"
+                               : std::string());
     }
   }
 
