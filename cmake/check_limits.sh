@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks that docs/limits.md keeps its word: every promise names tests, and each of them exists. A name may hold
+# Checks that every guarantee of docs/limits.md names tests, and that each of them exists. A name may contain
 # `*`, as of tests over a list. Usage: check_limits.sh BUILD_FOLDER [checkout]
 set -euo pipefail
 
