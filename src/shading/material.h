@@ -77,27 +77,27 @@ struct Material {
 
   /// What a material has whatever its model.
   static constexpr auto fields() {
-    return Fields{
-        Field{"bump", &Material::bump, "units of the object", -kNoLimit, kNoLimit,
-              "how high the surface seems to stand where the texture that it scales is white"},
-        Field{"opacity", &Material::opacity, "", 0, 1,
-              "share of the surface that is there: through the rest light goes straight on"},
-        Field{"sides", &Material::sides, "", -kNoLimit, kNoLimit,
-              "which sides of an opaque surface reflect light"},
-        Field{"displacement", &Material::displacement, "units of the object", -kNoLimit, kNoLimit,
-              "how far the points of a mesh move along their normals; a texture of heights "
-              "scales it"},
-        Field{"displacement_levels", &Material::displacementLevels, "", 0, 10,
-              "so often each triangle of a mesh is cut in four before its points move"},
-        Field{"medium_density", &Material::mediumDensity, "per unit", 0, kNoLimit,
-              "of what fills the body: smoke, cloud, flame, milk; 0: nothing. A texture counts from 0 to 1"},
-        Field{"medium_scatters", &Material::mediumScatters, "", 0, kNoLimit,
-              "how much light is scattered along a unit of length where the density is 1"},
-        Field{"medium_absorbs", &Material::mediumAbsorbs, "", 0, kNoLimit,
-              "how much is swallowed there: soot, ink"},
-        Field{"medium_glows", &Material::mediumGlows, "", 0, kNoLimit, "light that is given off there: fire"},
-        Field{"medium_forward", &Material::mediumForward, "", -1, 1,
-              "how much more light is scattered on than back; a cloud has 0.85, smoke 0.5"}};
+    return Fields{Field{"bump", &Material::bump, "units of the object", -kNoLimit, kNoLimit,
+                        "apparent height of the surface where its texture is white"},
+                  Field{"opacity", &Material::opacity, "", 0, 1,
+                        "coverage of the surface: light passes straight through the rest"},
+                  Field{"sides", &Material::sides, "", -kNoLimit, kNoLimit,
+                        "which sides of an opaque surface reflect light"},
+                  Field{"displacement", &Material::displacement, "units of the object", -kNoLimit, kNoLimit,
+                        "how far the points of a mesh move along their normals; a texture of heights "
+                        "scales it"},
+                  Field{"displacement_levels", &Material::displacementLevels, "", 0, 10,
+                        "number of subdivision levels before the points move"},
+                  Field{"medium_density", &Material::mediumDensity, "per unit", 0, kNoLimit,
+                        "density of the medium inside: smoke, cloud, flame, milk; 0: none. A texture is "
+                        "clamped to 0 to 1"},
+                  Field{"medium_scatters", &Material::mediumScatters, "", 0, kNoLimit,
+                        "scattering coefficient per unit of length at density 1"},
+                  Field{"medium_absorbs", &Material::mediumAbsorbs, "", 0, kNoLimit,
+                        "absorption coefficient: soot, ink"},
+                  Field{"medium_glows", &Material::mediumGlows, "", 0, kNoLimit, "emission: fire"},
+                  Field{"medium_forward", &Material::mediumForward, "", -1, 1,
+                        "mean cosine of the scattering angle; a cloud has 0.85, smoke 0.5"}};
   }
   bool operator==(const Material&) const = default;
 };

@@ -71,11 +71,10 @@ struct SurfaceFields {
   Real shadow = 1;  ///< how dark shadows on it are: 0 shows none
 
   static constexpr auto fields() {
-    return Fields{
-        Field{"emissive", &SurfaceFields::emissive, "", 0, kNoLimit, "light the surface gives off by itself"},
-        Field{"ambient", &SurfaceFields::ambient, "", 0, 1, "share of the ambient light given back"},
-        Field{"shadow", &SurfaceFields::shadow, "", 0, 1,
-              "share of a light that a shadow on the surface takes away"}};
+    return Fields{Field{"emissive", &SurfaceFields::emissive, "", 0, kNoLimit, "emitted light"},
+                  Field{"ambient", &SurfaceFields::ambient, "", 0, 1, "reflectance for ambient light"},
+                  Field{"shadow", &SurfaceFields::shadow, "", 0, 1,
+                        "fraction of a light that a shadow on the surface takes away"}};
   }
   bool operator==(const SurfaceFields&) const = default;
 };

@@ -65,7 +65,7 @@ struct TexturePlacement {
     return Fields{
         Field{"scale", &TexturePlacement::scale, "", -kNoLimit, kNoLimit, "makes the pattern larger"},
         Field{"rotate", &TexturePlacement::rotate, "degrees", -kNoLimit, kNoLimit,
-              "turns it about x, then y, then z"},
+              "rotates it about x, then y, then z"},
         Field{"translate", &TexturePlacement::translate, "", -kNoLimit, kNoLimit, "moves it"}};
   }
   bool operator==(const TexturePlacement&) const = default;

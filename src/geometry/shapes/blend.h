@@ -33,8 +33,8 @@ struct Blend {
   static constexpr auto fields() {
     return Fields{
         Field{"objects", &Blend::objects, "", 0, 0, "solids; they stand in the block one after another"},
-        Field{"operation", &Blend::operation, "", 0, 0, "what is made of them"},
-        Field{"radius", &Blend::radius, "", 0, kNoLimit, "of the fillet"}};
+        Field{"operation", &Blend::operation, "", 0, 0, "how they are combined"},
+        Field{"radius", &Blend::radius, "", 0, kNoLimit, "radius of the fillet"}};
   }
   bool operator==(const Blend&) const = default;
 

@@ -37,8 +37,8 @@ struct Sierpinski {
   int levels = 4;
 
   static constexpr auto fields() {
-    return Fields{Field{"levels", &Sierpinski::levels, "", 0, kMostLevels,
-                        "how often the middles are taken out; 0 is a tetrahedron"}};
+    return Fields{
+        Field{"levels", &Sierpinski::levels, "", 0, kMostLevels, "number of levels; 0 is a tetrahedron"}};
   }
   bool operator==(const Sierpinski&) const = default;
 
@@ -63,9 +63,8 @@ struct Ifs {
         Field{
             "maps", &Ifs::maps, "", -kNoLimit, kNoLimit,
             "list of (a, b, c, d, e, f, g, h, i, j, k, l): x' = a x + b y + c z + d, and so on; all shrink"},
-        Field{"seed", &Ifs::seed, "", 0, 0, "what stands at the last level"},
-        Field{"levels", &Ifs::levels, "", 0, 30,
-              "of copies of copies, as far as a million of millions allows"}};
+        Field{"seed", &Ifs::seed, "", 0, 0, "the shape at the last level"},
+        Field{"levels", &Ifs::levels, "", 0, 30, "number of levels, up to a million million copies"}};
   }
   bool operator==(const Ifs&) const = default;
 

@@ -41,15 +41,15 @@ struct Julia {
   static constexpr auto fields() {
     return Fields{
         Field{"constant", &Julia::constant, "", -2, 2, "c: one number for each dimension"},
-        Field{"normal", &Julia::normal, "", -1, 1, "of the hyperplane, of any length"},
-        Field{"offset", &Julia::offset, "", -2, 2, "of the hyperplane from the origin, along its normal"},
-        Field{"iterations", &Julia::iterations, "", 1, 50,
-              "how often the step is repeated: more show more detail"},
+        Field{"normal", &Julia::normal, "", -1, 1, "normal of the hyperplane, of any length"},
+        Field{"offset", &Julia::offset, "", -2, 2,
+              "distance of the hyperplane from the origin, along its normal"},
+        Field{"iterations", &Julia::iterations, "", 1, 50, "number of iterations; more show more detail"},
         Field{"iteration", &Julia::iteration, "", 0, 0, "the step: f in q -> f(q) + c"},
         Field{"mandelbrot", &Julia::mandelbrot, "", 0, 1, "c is the point itself, plus `constant`"},
-        Field{"trap", &Julia::trap, "", 0, 0, "what the texture coordinates tell"},
+        Field{"trap", &Julia::trap, "", 0, 0, "the meaning of the texture coordinates"},
         Field{"materials", &Julia::materials, "", 0, 0,
-              "that follow each other as the trap's least distance grows"}};
+              "materials in the order of the trap's least distance"}};
   }
   bool operator==(const Julia&) const = default;
 

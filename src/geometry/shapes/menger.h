@@ -23,7 +23,7 @@ struct Menger {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"levels", &Menger::levels, "", 0, kMostLevels, "how often the cubes are drilled; 0 is a cube"}};
+        Field{"levels", &Menger::levels, "", 0, kMostLevels, "number of drilling levels; 0 is a cube"}};
   }
   bool operator==(const Menger&) const = default;
 

@@ -19,7 +19,7 @@ class TracedMetaballs;
 struct Metaballs {
   static constexpr std::string_view kKeyword = "metaballs";
   static constexpr std::string_view kHelp =
-      "blobs that flow together: where the fields of balls and capsules add up";
+      "blobs: an isosurface of the sum of the fields of balls and capsules";
 
   Real threshold = 0.5;
   std::vector<std::array<Real, 5>> balls{{-0.5, 0, 0, 1, 1}, {0.5, 0, 0, 1, 1}};

@@ -15,7 +15,7 @@ namespace trace {
 
 struct Plane {
   static constexpr std::string_view kKeyword = "plane";
-  static constexpr std::string_view kHelp = "plane z = 0 without end, solid below; its normal is +z";
+  static constexpr std::string_view kHelp = "infinite plane z = 0, solid below; its normal is +z";
   static constexpr auto fields() { return Fields{}; }
   bool operator==(const Plane&) const = default;
 

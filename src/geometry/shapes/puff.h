@@ -24,10 +24,11 @@ struct Puff {
   MaterialList materials;
 
   static constexpr auto fields() {
-    return Fields{Field{"depth", &Puff::depth, "", 0, kNoLimit,
-                        "optical depth through the middle: of 1, 37 % of the light passes"},
-                  Field{"materials", &Puff::materials, "", 0, 0,
-                        "from the thinnest haze to the thickest; without, from clear to its own"}};
+    return Fields{
+        Field{"depth", &Puff::depth, "", 0, kNoLimit,
+              "optical depth through the middle; at 1, 37 % of the light is transmitted"},
+        Field{"materials", &Puff::materials, "", 0, 0,
+              "materials from the thinnest haze to the thickest; by default from clear to its own"}};
   }
   bool operator==(const Puff&) const = default;
 

@@ -27,13 +27,13 @@ struct Camera {
   static constexpr auto fields() {
     return Fields{
         Field{"position", &Camera::position, "", -kNoLimit, kNoLimit, "the eye"},
-        Field{"viewdir", &Camera::viewdir, "", -kNoLimit, kNoLimit, "where it looks"},
-        Field{"updir", &Camera::updir, "", -kNoLimit, kNoLimit, "what is up"},
+        Field{"viewdir", &Camera::viewdir, "", -kNoLimit, kNoLimit, "the viewing direction"},
+        Field{"updir", &Camera::updir, "", -kNoLimit, kNoLimit, "the direction that is up"},
         Field{"fov", &Camera::fov, "degrees", 0, 180, "vertical angle of view"},
         Field{"aspectratio", &Camera::aspectratio, "", 0, kNoLimit, "width / height of the picture"},
         Field{"near", &Camera::near, "", 0, kNoLimit,
               "a camera ray whose first surface is nearer shows nothing"},
-        Field{"far", &Camera::far, "", 0, kNoLimit, "a camera ray sees no farther"}};
+        Field{"far", &Camera::far, "", 0, kNoLimit, "camera rays end at this distance"}};
   }
   bool operator==(const Camera&) const = default;
 };

@@ -16,12 +16,11 @@ struct LightLinks {
   std::vector<std::string> excludes{};  ///< names of objects that it does not light
 
   static constexpr auto fields() {
-    return Fields{
-        Field{"name", &LightLinks::name, "", -kNoLimit, kNoLimit, "by which it is told from others"},
-        Field{"lights", &LightLinks::lights, "", -kNoLimit, kNoLimit,
-              "names of the objects that it lights; none: all"},
-        Field{"excludes", &LightLinks::excludes, "", -kNoLimit, kNoLimit,
-              "names of objects that it does not light"}};
+    return Fields{Field{"name", &LightLinks::name, "", -kNoLimit, kNoLimit, "name of the light"},
+                  Field{"lights", &LightLinks::lights, "", -kNoLimit, kNoLimit,
+                        "names of the objects that it lights; none: all"},
+                  Field{"excludes", &LightLinks::excludes, "", -kNoLimit, kNoLimit,
+                        "names of objects that it does not light"}};
   }
   bool operator==(const LightLinks&) const = default;
 };

@@ -28,16 +28,17 @@ struct Phong : Interior {
   static constexpr auto fields() {
     return Fields{
 
-        Field{"emissive", &Phong::emissive, "", 0, kNoLimit, "light the surface gives off by itself"},
-        Field{"ambient", &Phong::ambient, "", 0, 1, "share of the ambient light given back"},
-        Field{"diffuse", &Phong::diffuse, "", 0, 1, "share of light scattered evenly"},
+        Field{"emissive", &Phong::emissive, "", 0, kNoLimit, "emitted light"},
+        Field{"ambient", &Phong::ambient, "", 0, 1, "reflectance for ambient light"},
+        Field{"diffuse", &Phong::diffuse, "", 0, 1, "diffuse reflectance"},
         Field{"specular", &Phong::specular, "", 0, 1, "strength of the highlight"},
         Field{"reflective", &Phong::reflective, "", 0, 1, "weight of the mirrored ray"},
         Field{"transmissive", &Phong::transmissive, "", 0, 1,
-              "weight of the refracted ray, filter of shadows"},
+              "weight of the refracted ray, and the colour of shadows"},
         Field{"shininess", &Phong::shininess, "", 0, kNoLimit, "sharpness of the highlight"},
         Field{"index", &Phong::index, "", 0, kNoLimit, "index of refraction"},
-        Field{"shadow", &Phong::shadow, "", 0, 1, "share of a light that a shadow on the surface takes away"},
+        Field{"shadow", &Phong::shadow, "", 0, 1,
+              "fraction of a light that a shadow on the surface takes away"},
         Interior::fields()};
   }
   bool operator==(const Phong&) const = default;

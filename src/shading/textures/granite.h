@@ -23,7 +23,7 @@ struct Granite : PatternColors, FractalSum {
     return Fields{PatternColors::fields(),
 
                   Field{"frequency", &Granite::frequency, "", -kNoLimit, kNoLimit, "grains in a step"},
-                  Field{"contrast", &Granite::contrast, "", 0, kNoLimit, "how far light and dark are apart"},
+                  Field{"contrast", &Granite::contrast, "", 0, kNoLimit, "contrast between light and dark"},
                   FractalSum::fields()};
   }
   bool operator==(const Granite&) const = default;

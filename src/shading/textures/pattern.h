@@ -94,7 +94,7 @@ struct PatternColors {
         Field{"a", &PatternColors::a, "", 0, kNoLimit, "the colour where the pattern is 0"},
         Field{"b", &PatternColors::b, "", 0, kNoLimit, "the colour where it is 1"},
         Field{"ramp", &PatternColors::ramp, "", -kNoLimit, kNoLimit,
-              "((position, red, green, blue), ...): colours at rising positions, in place of a and b"}};
+              "((position, red, green, blue), ...): colours at increasing positions, in place of a and b"}};
   }
   bool operator==(const PatternColors&) const = default;
 
