@@ -122,7 +122,7 @@ std::span<const KnownFormat> knownFormats() {
                   "profile of another kind is reported.",
                   knownPngFields()},
       KnownFormat{"JPEG", "JPEG", "Grey, colour and CMYK of 8 bits.", knownJpegFields()},
-      KnownFormat{"BMP", "BMP", "All heads of Windows and OS/2.", knownBmpFields()},
+      KnownFormat{"BMP", "BMP", "All headers of Windows and OS/2.", knownBmpFields()},
       KnownFormat{"TGA", "TGA", "Version 1 and 2.", knownTgaFields()},
       KnownFormat{"HDR", "Radiance HDR", "Brightness and colours are those that were measured.",
                   knownHdrFields()},

@@ -9,16 +9,16 @@ namespace {
 
 using namespace known;
 
-constexpr std::string_view kActs = "acts by a ROUTE, which is reported", kSeen = "no matter of what is seen",
-                           kCut = "nothing is cut off",
-                           kPolygons = "polygons of up to 64 corners keep their dents anyway";
+constexpr std::string_view kActs = "acts by a ROUTE, which is reported",
+                           kSeen = "does not affect the picture", kCut = "nothing is cut off",
+                           kPolygons = "polygons of up to 64 corners may be concave anyway";
 
 constexpr std::array kInventorRows{
     KnownField{"#Inventor binary", kRefused, ""},
     KnownField{"DEF and USE", kShown, "the same node again"},
     KnownField{"field value ~", kIdle, "the default holds, as the mark says"},
     KnownField{"= Engine", kReported, "the field keeps its value"},
-    KnownField{"unknown nodes", kReported, "what they hold is shown"},
+    KnownField{"unknown nodes", kReported, "their children are shown"},
     KnownField{"unknown fields", kReported, ""},
     KnownField{"Separator", kShown, ""},
     KnownField{"TransformSeparator", kShown, ""},
@@ -126,7 +126,7 @@ constexpr std::array kInventorRows{
     KnownField{"PerspectiveCamera.focalDistance", kIdle, "for viewers"},
     KnownField{"PerspectiveCamera.viewportMapping", kIdle, "for windows of another shape"},
     KnownField{"OrthographicCamera.height", kShown, ""},
-    KnownField{"a second camera", kReported, "the first is looked through"},
+    KnownField{"a second camera", kReported, "the first is used"},
     KnownField{"DrawStyle.style", kReported, "surfaces are drawn whole"},
     KnownField{"AsciiText", kReported, ""},
     KnownField{"Text2", kReported, ""},
@@ -175,7 +175,7 @@ constexpr std::array kVrml97Rows{
     KnownField{"PROTO: eventIn", kIdle, kActs},
     KnownField{"EXTERNPROTO", kShown, "of a file, by its name or the first there"},
     KnownField{"DEF and USE", kShown, "the same node again"},
-    KnownField{"unknown nodes", kReported, "what they hold is shown"},
+    KnownField{"unknown nodes", kReported, "their children are shown"},
     KnownField{"unknown fields", kReported, ""},
     KnownField{"Group.children", kShown, ""},
     KnownField{"Transform.translation", kShown, ""},
@@ -269,7 +269,7 @@ constexpr std::array kVrml97Rows{
     KnownField{"PointLight.ambientIntensity", kShown, ""},
     KnownField{"PointLight.location", kShown, ""},
     KnownField{"PointLight.attenuation", kShown, ""},
-    KnownField{"PointLight.radius", kReported, "if it is not the default: the light shines farther"},
+    KnownField{"PointLight.radius", kReported, "if it is not the default: the light is not cut off"},
     KnownField{"DirectionalLight.direction", kShown, ""},
     KnownField{"SpotLight.direction", kShown, ""},
     KnownField{"SpotLight.beamWidth", kShown, ""},
@@ -279,7 +279,7 @@ constexpr std::array kVrml97Rows{
     KnownField{"Viewpoint.fieldOfView", kShown, ""},
     KnownField{"Viewpoint.description", kIdle, kSeen},
     KnownField{"Viewpoint.jump", kIdle, kSeen},
-    KnownField{"a second Viewpoint", kReported, "the first is looked through"},
+    KnownField{"a second Viewpoint", kReported, "the first is used"},
     KnownField{"NavigationInfo.headlight", kReported,
                "where it contradicts: a light at the camera shines if the file has no other"},
     KnownField{"NavigationInfo.type", kIdle, kSeen},
@@ -310,8 +310,8 @@ constexpr std::array kVrml97Rows{
     KnownField{"OrientationInterpolator", kIdle, kActs},
     KnownField{"PositionInterpolator", kIdle, kActs},
     KnownField{"ScalarInterpolator", kIdle, kActs},
-    KnownField{"Sound", kIdle, "nothing to see"},
-    KnownField{"AudioClip", kIdle, "nothing to see"},
+    KnownField{"Sound", kIdle, "invisible"},
+    KnownField{"AudioClip", kIdle, "invisible"},
     KnownField{"WorldInfo", kIdle, "a comment"},
 };
 

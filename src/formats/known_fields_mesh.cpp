@@ -19,7 +19,7 @@ constexpr std::array kObjRows{
     KnownField{"vt u v", kShown, "texture coordinates"},
     KnownField{"vt u v w", kIdle, "pictures are flat"},
     KnownField{"vn", kShown, "normals"},
-    KnownField{"f", kShown, "a polygon; up to 64 corners keep their dents, more become a fan"},
+    KnownField{"f", kShown, "a polygon; up to 64 corners may be concave, more become a fan"},
     KnownField{"f -1", kShown, "counted backwards from the last point"},
     KnownField{"f v/vt", kShown, ""},
     KnownField{"f v//vn", kShown, ""},
@@ -29,7 +29,7 @@ constexpr std::array kObjRows{
     KnownField{"s", kReported, "smoothing groups, where there are no normals"},
     KnownField{"mtllib", kShown, "files of materials"},
     KnownField{"usemtl", kShown, "the material"},
-    KnownField{"\\ at a line's end", kShown, "the line goes on in the next"},
+    KnownField{"\\ at a line's end", kShown, "continued on the next line"},
     KnownField{"#", kIdle, "a comment"},
     KnownField{"p", kReported, "points"},
     KnownField{"l", kReported, "lines"},
@@ -66,7 +66,7 @@ constexpr std::array kObjRows{
 constexpr std::string_view kRelief = "bump, unless a map before it in this table is given";
 
 constexpr std::array kMtlRows{
-    KnownField{"newmtl", kShown, "a material; the last of two of one name counts"},
+    KnownField{"newmtl", kShown, "a material; the last of two of one name is used"},
     KnownField{"Ka", kShown, "ambient"},
     KnownField{"Kd", kShown, "diffuse"},
     KnownField{"Ks", kShown, "specular"},
@@ -77,9 +77,9 @@ constexpr std::array kMtlRows{
     KnownField{"Ns", kShown, "shininess"},
     KnownField{"Ni", kShown, "index"},
     KnownField{"d", kShown, "transmissive times 1 - d, diffuse times d"},
-    KnownField{"d -halo", kReported, "as transparent from everywhere"},
+    KnownField{"d -halo", kReported, "equally transparent from all directions"},
     KnownField{"Tr", kShown, "1 - d; Tr 1 without d is read as opaque, with a warning"},
-    KnownField{"Tf", kShown, "transmissive, where d or illum says that light passes"},
+    KnownField{"Tf", kShown, "transmissive, if d or illum makes it transparent"},
     KnownField{"Kt", kShown, "as Tf"},
     KnownField{"Tf of an opaque material", kIdle, "exporters write it for all"},
     KnownField{"illum 0", kReported, "shown as a lit surface"},
