@@ -33,7 +33,7 @@ const std::vector<Case> kCases{
 };
 
 struct Measured {
-  double seconds = 0;  ///< of a picture
+  double seconds = 0;  ///< seconds of a picture
   double error = 0, errorOfMost = 0, mean = 0;
 };
 

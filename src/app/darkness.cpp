@@ -21,9 +21,9 @@ namespace trace {
 namespace {
 
 constexpr int kCellsAcross = 64, kCellsDown = 48;
-constexpr double kDarkLevel = 2;     // of 255; a pixel below it is black to the eye
-constexpr double kNearlyAll = 0.98;  // of the picture
-constexpr double kMostSeen = 0.95;   // of the cells in which there is an object
+constexpr double kDarkLevel = 2;     // a level of 255; a pixel below it is black to the eye
+constexpr double kNearlyAll = 0.98;  // fraction of the picture
+constexpr double kMostSeen = 0.95;   // fraction of the cells in which there is an object
 constexpr double kWanted = 90;       // the mean level of what is seen with the cure
 
 /// The settings of a picture of cells: nothing that only the finished picture needs.

@@ -1,4 +1,4 @@
-// What else follows when a person has set one field of a struct of the scene by hand.
+// Changes that follow when a person has set one field of a struct of the scene by hand.
 #pragma once
 
 #include <optional>

@@ -8,7 +8,7 @@
 namespace trace {
 namespace {
 
-/// What shines, reflects or scatters there.
+/// Name of the object that emits, reflects or scatters there.
 std::string placeOf(const RayNode& node, const Scene& scene) {
   return node.hit ? objectName(scene, node.hit->object) : "air";
 }

@@ -68,7 +68,7 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> nested(const LintScene& s
 }  // namespace
 
 void glassInGlass(const LintScene& s, Findings& findings) {
-  constexpr int kSide = 8;  // of the grid of rays through each body
+  constexpr int kSide = 8;  // side of the grid of rays through each body
   if (s.world.nestedGlass()) return;
   const std::vector<Body> bodies = bodiesOf(s);
   for (const Body& body : bodies) {

@@ -25,7 +25,7 @@ namespace {
 constexpr Size kSeen{128, 96};  ///< paths across and down the picture
 constexpr int kFewPlaces = 200;
 constexpr int kMostPlaces = 400000;  ///< asked of all lights together
-constexpr int kPlacesOfLight = 4;    ///< of one with a size
+constexpr int kPlacesOfLight = 4;    ///< places of light of one with a size
 constexpr int kRaysOfLight = 400;
 constexpr int kDeepest = 8;
 
@@ -33,8 +33,8 @@ constexpr int kDeepest = 8;
 struct SilentLight {
   std::uint32_t number;  ///< in World::lights()
   int asked = 0;
-  int elsewhere = 0;  ///< of these: it shines elsewhere
-  int behind = 0;     ///< of these: it is behind the surface
+  int elsewhere = 0;  ///< points in another direction than the light shines
+  int behind = 0;     ///< points where the light is behind the surface
   std::map<std::uint32_t, int> blockedBy{};
 };
 
@@ -119,7 +119,7 @@ class LightSearch {
     }
   }
 
-  /// What the light shines on along one of its rays, and where that light goes on to.
+  /// Follows one ray of the light: the points that it lights, and where the path continues.
   void fromLight(std::uint32_t number, int i) {
     Ray ray = rayOf(world_.lights()[number], i);
     Interfaces inside = pixels_.tracer().interfacesAt(ray.origin);
@@ -162,7 +162,7 @@ class LightSearch {
       follow(eye, first, around, sampler);
       return false;
     }
-    constexpr Real kSame = 1e-6;  // of the way
+    constexpr Real kSame = 1e-6;  // tolerance relative to the distance
     const bool same = first && length(first->surface.point - point) <= kSame * length(point - eye.origin);
     if (same) std::erase_if(silent_, [&](const SilentLight& light) { return light.number == number; });
     return same;

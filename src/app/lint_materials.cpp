@@ -58,7 +58,7 @@ bool inJoint(Real plane, Real moved, Real length, Real mortar) {
 
 }  // namespace
 
-/// Of a box whose bricks are not turned. Joints across x are moved from course to course.
+/// Checks a box whose bricks are not rotated. Joints across x are moved from course to course.
 void brickJoint(const LintScene& s, Findings& findings) {
   for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
     const Object& o = s.scene.objects[object];

@@ -101,7 +101,7 @@ void coplanarFaces(const LintScene& s, Findings& findings) {
   // Flat faces wherever they are; others, such as those of prisms, where the camera sees them.
   Statistics statistics;
   const auto isSeen = [&](const Vec3& place) {  // whichever way the camera looks
-    constexpr Real kThere = 1 - 1e-6;           // of the way
+    constexpr Real kThere = 1 - 1e-6;           // tolerance relative to the distance
     const Vec3& eye = s.world.camera().eye;
     const auto found = s.world.closest({eye, place - eye}, Faces::both, statistics);
     return found && found->t > kThere;

@@ -14,12 +14,12 @@ namespace {
 
 constexpr int kLines = 256;           ///< through a portal
 constexpr int kLooks = 8;             ///< at the sky, from each place that they end at
-constexpr double kMuchPastIt = 0.45;  ///< of these looks; under an open sky a wall sees a half
+constexpr double kMuchPastIt = 0.45;  ///< fraction of these rays; under an open sky a wall sees a half
 
 struct PortalLook {
   int toSky = 0;  ///< lines of which an end leaves the scene
   int looks = 0,
-      past = 0;  ///< of the places at their other ends: all, and those that see the sky past portals
+      past = 0;  ///< numbers of points at their other ends: all, and those that see the sky past portals
 };
 
 /// The first opaque thing on the ray; what passes light or has holes is none.

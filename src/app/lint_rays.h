@@ -1,4 +1,4 @@
-// What lint asks of a world by tracing rays: what is inside what, and what a light shines on.
+// Facts that lint finds by tracing rays: which object is inside which, and where a light shines.
 #pragma once
 
 #include <cstdint>

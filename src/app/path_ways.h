@@ -21,7 +21,7 @@ struct PathWay {
   Real share = 1;    ///< what it counts among all ways that find such paths
   Color brings;      ///< to the pixel
   int places() const { return light + camera; }
-  /// What it would bring if it were the only way.
+  /// The contribution if it were the only strategy.
   Color alone() const { return share > 0 ? brings / share : Color(); }
 };
 

@@ -104,7 +104,7 @@ class Panel {
   Affine toPlane_;
 };
 
-/// What the camera of the world sees, paler; white where nothing is.
+/// The view of the world's camera, paler; white where nothing is.
 DrawnPicture faint(const World& world, Settings settings, const Point2& at, double width, double height) {
   settings.width = static_cast<int>(width);
   settings.height = static_cast<int>(height);

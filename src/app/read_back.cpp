@@ -57,7 +57,7 @@ std::size_t firstMissing(const std::vector<Thing>& wanted, const std::vector<Thi
   return wanted.size();
 }
 
-/// What of the scene would be lost; "" for nothing.
+/// The part of the scene that would be lost; "" for nothing.
 std::string lost(const Scene& named, const Scene& back) {
   const Scene wanted = withoutNames(named), found = withoutNames(back);
   const std::size_t object =

@@ -1,4 +1,4 @@
-// What an edit of a scene means for a list of its things that a window shows: which one came, or went.
+// The meaning of an edit for a list of the scene's parts that a window shows: which one came, or went.
 #pragma once
 
 #include <algorithm>

@@ -17,7 +17,7 @@ namespace {
 /// glass.
 enum class Room { diffuse, mirror, glass, door, sun, window, panel, projector, fog, metal, roughGlass };
 
-/// What is on such a floor, if it is one.
+/// The object on such a floor, if there is one.
 const char* floorText(Room room) {
   switch (room) {
     case Room::sun:
@@ -157,7 +157,7 @@ constexpr double kBias = 0.01, kSeenBias = 0.02;
 double alikeWithin(Room room, const Choices& other, double bias = kBias) {
   return agreementOf(room, kPathDeep, other, kSeeds, bias).least;
 }
-/// The same of tiles so small that some lie along the room's edges alone.
+/// Compares tiles so small that some lie along the room's edges alone.
 double edgesAlike(const Choices& other) {
   constexpr int kEdge = 4;
   constexpr double kEdgeBias = 0.03;

@@ -59,7 +59,7 @@ std::uint64_t photonBytes(const Settings& settings) {
   return static_cast<std::uint64_t>(moments * photons) * sizeof(Photon);
 }
 
-/// What rays meet is the same in both.
+/// The geometry is the same in both.
 bool isSameAs(const Scene& a, const Scene& b) {
   return a.camera == b.camera && a.objects == b.objects && a.lights == b.lights &&
          a.materials == b.materials && a.background == b.background;

@@ -34,7 +34,7 @@ bool lacksPicture(const Texture& texture) {
   return false;
 }
 
-/// What is to be seen of one that was chosen just now.
+/// The part of a texture that is shown right after it was chosen.
 template <class Model>
 Model newModel() {
   Model model;

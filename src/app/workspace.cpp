@@ -185,7 +185,7 @@ void Workspace::takeReread() {
   const std::optional<Reread> reread = rereading_.take();
   if (!reread || !wanted_ || reread->number <= givenUp_) return;
   const bool last = reread->number == wantedNumber_;
-  Document::Change change = reread->change;  // of which a part may be in the document by now
+  Document::Change change = reread->change;  // a change that may partly be in the document by now
   if (change.option == wanted_->option) change.continues = change.continues || wanted_->continues;
   change.anew = change.anew && wanted_->anew;
   if (!reread->reading.value) {
@@ -356,7 +356,7 @@ bool Workspace::stale() const {
 }
 
 void Workspace::update() {
-  // What is being written may be the document's own file.
+  // The file that is being written may be the document's own.
   const bool looks = !saving() && !rereading_.pending();
   takeSaved();
   takeOpened();

@@ -35,7 +35,7 @@ std::string page(const Command* command, bool all) {
 int helpCommand(const Arguments& arguments, const Console&) {
   const std::vector<std::string>& words = arguments.files;
   const Command* command = words.empty() ? nullptr : findCommand(words[0]);
-  const std::size_t place = command ? 1 : 0;  // of the word "all"
+  const std::size_t place = command ? 1 : 0;  // index after the word "all"
   const bool all = words.size() > place && words[place] == "all";
   if (words.size() > place + all) {
     std::vector<std::string_view> known{"all"};
@@ -70,7 +70,7 @@ int codeOf(const Command& command, const Arguments& arguments, Fault fault) {
   return command.failed ? command.failed(arguments) : static_cast<int>(fault);
 }
 
-/// What scenes may read besides their own folders: what the command line names.
+/// The files that scenes may read besides their own folders: those of the command line.
 std::vector<std::string> allowedFiles(const Arguments& arguments) {
   std::vector<std::string> allowed = arguments.allowRead;
   for (const Choice& choice : arguments.choices)

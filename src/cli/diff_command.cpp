@@ -21,7 +21,7 @@
 namespace trace::cli {
 namespace {
 
-/// What the command found; each has an exit code in two scales.
+/// The verdicts of the command; each has an exit code in two scales.
 enum class Finding { identical, within, beyond, sizesDiffer, failed };
 
 int exitCode(Finding finding, bool likeIdiff) {

@@ -113,7 +113,7 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   session.build();
   std::optional<ChainWalk> chain;
-  if (byChains) {  // of the whole picture, with the options that were chosen for it
+  if (byChains) {  // chains belong to the whole picture, with the options that were chosen for it
     const auto whole = std::make_shared<Session>();
     whole->open(arguments.files[0], arguments.choices, arguments.strict);
     whole->build();

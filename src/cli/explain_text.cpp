@@ -302,7 +302,7 @@ std::string chainText(const ChainWalk* chain) {
   return lines + "\n";
 }
 
-/// What paths from lights, those of all pixels, bring straight to the camera.
+/// The light image in this pixel: light-traced paths of all pixels that reach the camera.
 std::string lightImageText(const PixelFacts& facts) {
   if (!facts.light)
     return "            the picture has more: what paths from lights, those of all pixels, bring straight to "
@@ -324,7 +324,7 @@ std::string lightImageText(const PixelFacts& facts) {
   return lines;
 }
 
-/// What an 8-bit file shows of the light, if that is not the light itself.
+/// The value of the light in an 8-bit file, if that is not the light itself.
 std::string shownText(const PixelFacts& facts) {
   const Development development = developmentOf(facts.settings);
   if (development == Development{}) return "";

@@ -171,7 +171,7 @@ int renderFrames(const Arguments& given, const std::string& pattern, const Conso
       break;
     }
     const SavedPicture saved = save(session, result, arguments, signals, files, progress, console);
-    if (result.end != End::finished) {  // of the steps behind the last ray
+    if (result.end != End::finished) {  // a stop in the steps behind the last ray
       code = exitCode(result);
       stopped = whyStopped(result);
       break;

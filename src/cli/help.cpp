@@ -52,7 +52,7 @@ std::string joined(std::span<const std::string_view> words, std::string_view bet
   return text;
 }
 
-/// What stands behind the flag.
+/// The argument of the flag.
 std::string placeholder(const Option& option) {
   switch (option.kind) {
     case Option::Kind::boolean: return "[on|off]";

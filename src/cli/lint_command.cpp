@@ -18,7 +18,7 @@ std::string lintText(const std::string& scene, std::span<const LintFinding> find
   std::string text;
   for (const LintFinding& finding : findings) {
     std::string message = toString(finding.message);
-    const std::size_t end = message.find('\n');  // of the first line
+    const std::size_t end = message.find('\n');  // end of the first line
     text += message.insert(end, " [" + std::string(finding.check) + "]");
   }
   return text + printable(scene) + ": " +

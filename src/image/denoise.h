@@ -14,7 +14,7 @@
 
 namespace trace {
 
-/// What guides it: of the first surfaces, on the average of a pixel's samples.
+/// The guides of denoising: features of the first surfaces, on the average of a pixel's samples.
 struct NoiseGuides {
   Picture albedo, normal;
   Picture nearness;  ///< 1 / depth; 0 where nothing is met

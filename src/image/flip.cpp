@@ -119,7 +119,7 @@ struct Sensitivity {
 };
 
 int colorRadius(double pixelsPerDegree) {
-  constexpr double kWidest = 0.04;  // of all channels' b
+  constexpr double kWidest = 0.04;  // largest b of all channels
   return static_cast<int>(std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixelsPerDegree));
 }
 

@@ -1,4 +1,4 @@
-// What is told of a chain, move by move.
+// The record of a chain, move by move.
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,7 @@ class Fog {
   /// upward, along y.
   Real depth(const Ray& ray, Real t) const;
   Real passes(const Ray& ray, Real t) const { return std::exp(-depth(ray, t)); }
-  /// What is left of a light that far away along the ray. Light from infinity is what arrives, and loses
+  /// The transmittance to a light that far away along the ray. Light from infinity is what arrives, and loses
   /// none.
   Real left(const Ray& toLight, Real distance) const {
     return distance < kInfinity ? passes(toLight, distance) : 1;
@@ -32,7 +32,7 @@ class Fog {
   /// The distance along the ray at which that depth is reached; may be infinite.
   Real distance(const Ray& ray, Real depth) const;
   Real forward() const { return forward_; }  ///< the mean cosine of what is scattered
-  /// What is lost along a unit of length there.
+  /// The extinction per unit of length there.
   Real densityAt(const Vec3& point) const;
 
  private:

@@ -263,7 +263,7 @@ bool Lamps::isPlain(const Tracer& tracer, const Place& place, const Interfaces& 
 Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, const Interfaces& from,
                   Real chance) const {
   if (isPlain(tracer, place, from)) {
-    constexpr Real kBehind = 1 + 0x1p-10;  // of the way: what lies farther away is not asked
+    constexpr Real kBehind = 1 + 0x1p-10;  // relative to the distance: what lies farther away is not asked
     ++tracer.statistics().depths;
     const auto found = tracer.nearest(ray, RayKind::lamp, place.distance * kBehind);
     if (!found || !met(place, *found)) return Color(0);

@@ -31,17 +31,17 @@ class LightStarts {
     Ray ray;
     Interfaces inside;
     std::optional<Hit> hit;
-    std::size_t light = kNoLight;  ///< of the world, if it is one of them
+    std::size_t light = kNoLight;  ///< light of the world, if it is one of them
     bool parallel = false;         ///< it comes from beyond all distances
     /// With which it was chosen and went that way: per solid angle, or per area across parallel light.
     Real density = 0;
     Vec2 onLight{};           ///< the place on a light
     Real cosine = 1;          ///< at a ball or a lamp
-    Color sends;              ///< of a lamp and of the sky
+    Color sends;              ///< emission of a lamp and of the sky
     std::optional<Hit> lamp;  ///< the place on a lamp
   };
   std::optional<Start> start(Tracer& tracer, const Sampler& sampler) const;
-  /// What arrives straight at a place of that path.
+  /// The light that arrives straight at a vertex of that path.
   struct Arrival {
     Color power;  ///< over the density of the place and its cosine
     /// Densities, over the start's: of the start, as places ask for it from the other end; and of meeting it
@@ -63,8 +63,8 @@ class LightStarts {
  private:
   /// How the starts of a light of the world are spread.
   struct Source {
-    Real share = 0;  ///< of all starts
-    Vec3 axis;       ///< of a point: directions lie in a cone
+    Real share = 0;  ///< share of all starts
+    Vec3 axis;       ///< axis of the directions of a point, which lie in a cone
     Real cosine = -1;
   };
   std::optional<Start> fromLight(Tracer& tracer, std::size_t light, const Sampler& sampler) const;
@@ -74,15 +74,15 @@ class LightStarts {
   /// Where parallel light starts that runs in the direction.
   Ray before(Tracer& tracer, const Vec3& direction, const Vec2& u) const;
   Real diskDensity() const { return 1 / (kPi * radius_ * radius_); }
-  /// The same where such light comes to a place; 0 beside the disk, where a plane may go on.
+  /// The density where such light comes to a point; 0 beside the disk, where a plane may go on.
   Real diskDensity(const Vec3& at, const Vec3& toLight) const;
   Real powerOf(const World& world, std::size_t light) const;
 
   const Lamps* lamps_ = nullptr;
-  Vec3 middle_;  ///< of a ball around the scene
+  Vec3 middle_;  ///< middle of a ball around the scene
   Real radius_ = 0;
   std::vector<Source> lights_;
-  std::vector<Real> sums_;  ///< of their shares, up to and with each
+  std::vector<Real> sums_;  ///< sums of their shares, up to and with each
   Real lampShare_ = 0, skyShare_ = 0;
 };
 

@@ -1,6 +1,6 @@
-// What light meets between surfaces: fog in the air, and bodies that a medium fills. The light that is left
-// of what comes along a ray, what the media give off on the way, and the places where they scatter light to
-// it.
+// Participating media between surfaces: fog in the air, and objects filled with a medium. The light that is
+// left of what comes along a ray, what the media give off on the way, and the places where they scatter light
+// to it.
 //
 // Media that are the same everywhere are worked out by Beer's law. Where a density changes, the way is cut by
 // chance into steps as short as its greatest density asks, and each step takes its part (ratio tracking:
@@ -28,12 +28,12 @@ inline bool isThick(const Tracer& tracer) {
 
 /// The way of a ray through media.
 struct MediumWay {
-  Color passes{1};  ///< of what comes from its end
+  Color passes{1};  ///< transmittance to its end
   Color glows;      ///< what arrives of the light that they give off
   /// Where light is scattered to the ray.
   struct Place {
     Real t;
-    Color weight;  ///< of the light there, from all sides
+    Color weight;  ///< weight of the light there, from all directions
     Real forward;
     std::uint32_t object;  ///< whose medium it is; Filling::kAir for fog
     Color arrives;         ///< the length for which it stands, without what the medium scatters of it
@@ -61,10 +61,10 @@ PhaseSample samplePhase(const Vec3& along, Real forward, const Vec2& u);
 /// Adds what `way` lets pass and gives off to the sum of what comes from its end.
 void coverWithMedia(Gather& sum, const MediumWay& way);
 
-/// Of `passed` of the light of the shadow ray asked last, what the bodies that media fill let through. Fog is
+/// The part of `passed` of the last shadow ray that media inside objects transmit. Fog is
 /// known already.
 Color throughBodies(Tracer& tracer, const Color& passed, const Ray& toLight, Real distance, Sampler numbers);
-/// The same of a ray to a place that shines; `first` becomes the first body on the way.
+/// The transmittance of a ray to an emitter; `first` becomes the first body on the way.
 Color passedByBodies(Tracer& tracer, const Ray& ray, Real distance, Sampler numbers,
                      std::uint32_t* first = nullptr);
 
@@ -72,7 +72,7 @@ Color passedByBodies(Tracer& tracer, const Ray& ray, Real distance, Sampler numb
 struct ScatterPlace {
   const Ray& ray;
   Vec3 point;
-  Color share;  ///< of that light in the sum
+  Color share;  ///< share of that light in the sum
   Real forward;
   const Interfaces& inside;
   std::optional<MediumTerm> medium;  ///< none in fog alone

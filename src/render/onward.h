@@ -8,14 +8,14 @@
 
 namespace trace {
 
-/// What a surface scatters of the light from one direction to another, as a path from the camera sees it,
+/// The scattering of a surface from one direction to another, as a path from the camera sees it,
 /// times the cosine to the light; black where the normals between vertices would turn light through it. Of
 /// the light that Whitted's equation knows, if it is `lit`: its shadows may be pale, and it is seen from
 /// where the normals have turned away.
 Color scattered(const Interaction& at, const Vec3& toEye, const Vec3& toLight, bool lit = false);
 
-/// The same for a path that came from the light, whose places are spread over the surface's true area, for
-/// what goes on from there over solid angle (Veach 1997, section 5.3).
+/// The scattering for a path that came from the light, whose places are spread over the surface's true area,
+/// for what goes on from there over solid angle (Veach 1997, section 5.3).
 Color scatteredOn(const Interaction& at, const Vec3& toEye, const Vec3& toLight, bool lit = false);
 
 /// Around the normal on the side of `toEye` where the surface is a sheet, which is the same from both sides:
@@ -34,8 +34,8 @@ class Onward {
     RayKind kind;  ///< bounce, reflection or refraction
     Vec3 direction;
     Color weight;      ///< over the chance of the choice
-    Real density = 0;  ///< of a direction in the lobe, per solid angle; 0: there was one only
-    Real ratio = 1;    ///< of the indices before and behind
+    Real density = 0;  ///< density of a direction in the lobe, per solid angle; 0: there was one only
+    Real ratio = 1;    ///< ratio of the indices before and behind
     Interfaces there;
   };
   /// Chooses where a path from the camera goes on, or one `fromLight`, which carries light itself; `lit`:

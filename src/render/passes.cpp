@@ -97,7 +97,7 @@ Picture samplesShown(const Picture& values, const Settings& settings) {
   return coloured(mapped(values, [&](const Color& c) { return c * (1 / most); }), settings);
 }
 
-/// What the material scatters evenly, mirrors and lets through, straight on.
+/// The albedo of the material: diffuse, reflected and transmitted straight.
 Color albedoValue(const PassPlace& at) {
   const CameraRay& camera = at.camera;
   const Interaction place(at.tracer, camera.ray, at.hit, camera.differentials, camera.inside, 0.5);
@@ -155,7 +155,7 @@ constexpr std::array kPasses{
             Color(0), Color(0), nullptr, changeShown},
 };
 
-/// What else guides the removal of noise.
+/// The other guides of denoising.
 constexpr PassRow kNearness{Pass::depth, "nearness",    "",        Film::Keep::mean, Color(0),
                             Color(0),    nearnessValue, plainShown};
 

@@ -23,7 +23,7 @@ Color scatteredPhoton(const Interaction& at, const Vec3& direction) {
 
 }  // namespace
 
-/// What of the light over a solid angle falls on a surface there, by the light's own law.
+/// The part of the light over a solid angle that falls on a surface there, by the light's own law.
 Real PhotonEmitter::fallsOn(const Flight& flight, const Vec3& point) const {
   const auto arriving = world_.illuminate(*flight.light, point, flight.onLight);
   if (!arriving) return 0;
@@ -35,7 +35,7 @@ Real PhotonEmitter::fallsOn(const Flight& flight, const Vec3& point) const {
 /// a shadow ray through it finds it: by the light's own law, which need not be the square of the distance.
 Color PhotonEmitter::arriving(const Flight& f, const Vec3& point, Real t) const {
   if (f.light && f.bounces == 0 && f.scatterings == 0) {
-    // What falls on a surface there that faces the light, over the solid angle or the area.
+    // The light that falls on a surface there that faces the light, over the solid angle or the area.
     const auto light = world_.illuminate(*f.light, point, f.onLight);
     if (!light) return Color(0);
     const Real away2 = f.start ? t * t : 1;
@@ -66,8 +66,8 @@ void PhotonEmitter::scatter(Flight& f, const Vec3& point, Real forward) {
   if (!isBlack(f.power)) cast(f);
 }
 
-/// What fog scatters of parallel light, which is as strong in front of fog as behind: a photon of its own,
-/// from a place within the scene. Light of the sky has come through fog.
+/// The scattering of parallel light by fog, which is as strong in front of fog as behind: a photon of its
+/// own, from a place within the scene. Light of the sky has come through fog.
 void PhotonEmitter::lightFog(const Flight& parallel, LandedPhotons& landed) {
   const Box3& box = world_.bounds();
   const Ray& ray = parallel.ray;
@@ -161,7 +161,7 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt,
   const SpectralShare* share =
       shares.empty() ? nullptr
                      : &shares[static_cast<std::size_t>(chance() * static_cast<Real>(shares.size()))];
-  // What is mirrored or refracted into a lobe is scattered, and rests in the map of all light alone.
+  // Light reflected or refracted into a lobe is scattered, and is stored in the map of all light alone.
   // Whitted's tracer, which has no such map, takes the rays that stand for the lobe.
   const bool glossy = lamps_ && isGlossy(at.bsdf());
   const Color mirror = at.mirror(lamps_);

@@ -21,7 +21,7 @@ namespace trace {
 PhotonMap causticMap(const World& world, const Settings& settings, const Lamps* lamps, Job& job,
                      int pass = 0);
 
-/// The same with Settings::causticTexels, for places that have a map; photons tell of the others.
+/// The estimate with Settings::causticTexels, for points that have a map; photons give that of the others.
 struct GatheredCaustics {
   PhotonMap photons;
   IlluminationMap texels;

@@ -20,8 +20,8 @@ enum class RayLooks { camera, reflection, refraction, bounce, lamp, light, shado
 struct RayLook {
   std::string_view kind;      ///< the kind's name, one word
   std::string_view name;      ///< one word
-  std::string_view help;      ///< of a legend
-  Color color;                ///< of the screen, as levels from 0 to 1
+  std::string_view help;      ///< text of a legend
+  Color color;                ///< colour on the screen, as levels from 0 to 1
   std::string_view terminal;  ///< the escape sequence that switches its colour on
 };
 

@@ -49,7 +49,7 @@ const MediumTerm* turnedBy(const RayNode& node) {
   return nullptr;
 }
 
-/// What it is and where: "sphere (scene.ray:12)".
+/// The object and its position: "sphere (scene.ray:12)".
 std::string named(std::string_view keyword, const Place& place) {
   std::string text(keyword);
   if (const std::string where = shortPlace(place); !where.empty()) text += " (" + where + ")";

@@ -109,7 +109,7 @@ struct LightTerm {
   std::uint32_t light = 0;  ///< index into Scene::lights
   Illumination arriving;
   Scatter scatter;
-  Real share = 1;        ///< of the rays to a light with a size: one of --light-samples
+  Real share = 1;        ///< share among the rays to a light with a size: one of --light-samples
   Real probability = 1;  ///< with which the light was chosen among all, if they are many: share holds it, too
 };
 
@@ -122,10 +122,11 @@ struct DarkTerm {
 /// How a direction was chosen by chance, and what the choice counts among the ways to come upon the same
 /// light.
 struct ChanceTerm {
-  Real density =
-      0;  ///< of the direction, per solid angle, with all choices that led to it; 0: there was one only
-  Real other = 0;  ///< of the other way: of lamps for a bounced ray, of the surface for a ray to a lamp
-  Real share = 1;  ///< of this way: the power heuristic (Veach 1997, section 9.2.4)
+  Real density = 0;  ///< density of the direction, per solid angle, with all choices that led to it; 0: there
+                     ///< was one only
+  Real other = 0;  ///< density of the other strategy: light sampling for a bounced ray, the surface for a ray
+                   ///< to a lamp
+  Real share = 1;  ///< MIS weight of this strategy: the power heuristic (Veach 1997, section 9.2.4)
 };
 
 /// Photons that were counted, and the radius of the disk in which they lie.
@@ -145,10 +146,10 @@ struct CacheTerm {
 /// it was.
 struct ConnectionTerm {
   int light = 0, camera = 0;
-  Real share = 1;  ///< of this way: the power heuristic (Veach 1997, section 10.2)
+  Real share = 1;  ///< MIS weight of this strategy: the power heuristic (Veach 1997, section 10.2)
 };
 
-/// What a medium does with light, and where.
+/// The effect of a medium on light, and its position.
 struct MediumTerm {
   enum class What { covers, glows, scatters, follows } what = What::covers;
   std::uint32_t object = 0;  ///< index into Scene::objects; Filling::kAir for fog
@@ -214,7 +215,7 @@ struct Ignored {
   std::uint64_t part = 0;
   Real t = 0;
   bool leaving = false;
-  Real opacity = 1;  ///< of a hole, or of what is there in part and was not met: less than 1
+  Real opacity = 1;  ///< opacity of a hole, or of a partly open surface that was not hit: less than 1
   Filling body{};    ///< whose surface it is
   Filling around{};  ///< what fills the place on both sides
 };
@@ -230,12 +231,12 @@ struct Filter {
 
 struct RayNode {
   RayKind kind = RayKind::camera;
-  int parent = -1, depth = 0;  ///< of the camera ray: -1 and 0
+  int parent = -1, depth = 0;  ///< -1 and 0 for the camera ray
   Ray ray;
-  Real tMost = kInfinity;                ///< of a shadow ray: the distance of the light
+  Real tMost = kInfinity;                ///< for a shadow ray, the distance of the light
   std::optional<Hit> hit;                ///< not of shadow rays
   std::optional<Outside::View> outside;  ///< what it sees where it meets nothing
-  std::vector<MaterialShare> materials;  ///< of the hit
+  std::vector<MaterialShare> materials;  ///< materials of the hit
   std::optional<Bsdf> bsdf;              ///< there
   Indices indices;                       ///< there
   std::optional<Vec3> raised;            ///< where rays from there to light start, if not at the hit
@@ -243,12 +244,12 @@ struct RayNode {
   Real wavelength = 0;                   ///< in nanometres; 0: light of all colours
   std::vector<Term> terms;
   Color through{1};             ///< what the medium lets pass on the way back
-  std::vector<Filter> filters;  ///< of a shadow ray, in order
+  std::vector<Filter> filters;  ///< filters of a shadow ray, in order
   std::vector<RayEnd> ends;     ///< several where it sends neither of two rays; none where all were sent
   Color radiance;               ///< brought back; of a shadow ray: the share of the light that passes
   Color weight;                 ///< factor of the radiance in the pixel
-  std::uint64_t nodes = 0;      ///< of hierarchies, visited
-  std::uint64_t tests = 0;      ///< of shapes and triangles
+  std::uint64_t nodes = 0;      ///< nodes of hierarchies, visited
+  std::uint64_t tests = 0;      ///< tests of shapes and triangles
 };
 
 /// More rays than this are not recorded: a thousand bounces between two panes of glass take more than a
@@ -259,14 +260,14 @@ inline constexpr std::size_t kMostRecordedRays = 200000;
 /// from a light are roots, too, the first of them; they bring nothing back.
 struct RayTree {
   int x = 0, y = 0, sample = 0;
-  int moment = -1;  ///< of those while the shutter is open; -1: there is but one
+  int moment = -1;  ///< number of the moment while the shutter is open; -1: there is but one
   std::vector<RayNode> nodes;
 };
 inline const RayNode& rayAt(const RayTree& tree, int ray) {
   return tree.nodes[static_cast<std::size_t>(ray)];
 }
 
-/// What the node's radiance is by its recorded terms and those of the rays below it.
+/// The radiance of the node by its recorded terms and those of the rays below it.
 Color recomputed(const RayTree& tree, int node = 0);
 
 /// Every node's radiance is recomputed() of it, bit for bit; a NaN equals a NaN.
@@ -290,7 +291,7 @@ std::string fillingText(const Scene& scene, std::uint32_t object, Real priority)
 std::string sentence(const Ignored& ignored, const Scene& scene);
 /// "red", "material 3" for one without a name, "clear" for MaterialMix::kClear.
 std::string materialName(const Scene& scene, std::uint32_t material);
-/// The same of one, or "red 0.25 + blue 0.75".
+/// The name of a material, or "red 0.25 + blue 0.75".
 std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& materials);
 /// Its name, or "point_light (scene.ray:7)".
 std::string lightName(const Scene& scene, std::uint32_t light);

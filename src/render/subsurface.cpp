@@ -29,7 +29,7 @@ PerColor perUnit(const Color& perMillimetre, const Subsurface& said) {
   return channels(perMillimetre * said.millimetres);
 }
 
-/// What the tracer has met there, seen from outside.
+/// The surface that the tracer has hit there, seen from outside.
 std::optional<Entrance> seen(Tracer& tracer, const Vec3& from, const Ray& foundOn, const Found& found,
                              const Color& weight, const BodyTerm& how) {
   const SurfacePoint place = tracer.world().surface(foundOn, found);
@@ -127,7 +127,7 @@ struct WalkEnd {
   Ray ray;
   Found wall;
   SurfacePoint place;
-  Real letOut;  ///< of what comes there so
+  Real letOut;  ///< transmittance to the outside
   Color weight;
   int steps;
 };

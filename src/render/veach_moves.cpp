@@ -105,7 +105,7 @@ Real Moves::density(Path& path, const Kept& kept, std::size_t placesBefore) cons
   const bool openEnd = kept.atLight == 0;
   Real eye = 1, sum = 0;
   for (std::size_t i = 0; i <= added; ++i) {
-    const std::size_t last = kept.atLens + i - 1;  // of the camera's side
+    const std::size_t last = kept.atLens + i - 1;  // last of the camera's side
     if (i > 0 && last > 0) eye *= path.nodes[last - 1].eye;
     if (i < first) continue;
     const std::size_t fromLight = added - i;

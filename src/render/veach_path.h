@@ -27,7 +27,7 @@
 
 namespace trace::veach {
 
-/// What paths of one moment ask of the scene.
+/// The scene data that paths of one moment use.
 struct Stage {
   Stage(const World& world, const Settings& settings, const Tile& area, const Size& size);
 
@@ -41,10 +41,10 @@ struct Stage {
 
   Lamps lamps;
   CameraImportance camera;
-  Vec2 low, high;      ///< of the film
-  Vec2 side;           ///< of a square of the film's area, in its widths and heights
-  std::size_t lights;  ///< of the scene
-  int mostPlaces;      ///< of a path, its ends among them
+  Vec2 low, high;      ///< low and high of the film
+  Vec2 side;           ///< side of a square of the film's area, in its widths and heights
+  std::size_t lights;  ///< number of lights of the scene
+  int mostPlaces;      ///< largest number of vertices of a path, its ends among them
 };
 
 /// A surface where a ray has arrived.
@@ -75,9 +75,9 @@ struct Node {
   RayKind leaves = RayKind::camera;        ///< by which ray
   bool asked =
       false;        ///< lights of the scene were asked before the ray that arrives, which does not see them
-  Color factor{1};  ///< of f: what is scattered, over the cosine
+  Color factor{1};  ///< factor of f: what is scattered, over the cosine
   Real eye = 0;     ///< density of going on so
-  Real kappa = 1;   ///< of mirrors and glass: light's part of it over the part of what the camera sees
+  Real kappa = 1;   ///< kappa of mirrors and glass: light's part of it over the part of what the camera sees
   Real edge = 0;    ///< G of the way to the next place; 0 from mirrors and glass
   // Worked out where somebody asks.
   std::shared_ptr<const Vertex> turned{};  ///< the place as a path from the light meets it
@@ -107,10 +107,10 @@ struct Path {
   End end = End::open;  ///< what shines: an object, a light that is seen or asked, or the sky
   Vec3 towardEnd{};     ///< if that is no surface
   Color shines{};
-  std::size_t light = 0;  ///< of the scene, if one is asked
+  std::size_t light = 0;  ///< light of the scene, if one is asked
   Vec2 onLight{};
   Color f{};
-  Real brightness = 0;  ///< of f
+  Real brightness = 0;  ///< brightness of f
 };
 
 /// Where a ray is to arrive.
@@ -145,7 +145,7 @@ class Paths {
 
   /// Works out what has changed: the places `first` to `last`, and f.
   bool weigh(Path& path, std::size_t first, std::size_t last) const;
-  /// The same of one place, behind which the path has another.
+  /// Evaluates one vertex, behind which the path has another.
   bool weighPlace(Path& path, std::size_t i) const;
 
   /// The place as a path from the light meets it; none where that cannot be.

@@ -1,4 +1,4 @@
-// What chains that change paths place by place do not know.
+// Features that Veach's mutations do not support.
 #include "base/error.h"
 #include "render/veach_path.h"
 

@@ -66,7 +66,7 @@ std::vector<Material> shownAs(std::vector<Material> materials, const Settings& s
 
 }  // namespace
 
-/// What a World takes over from the one before: an edit in the studio changes little of a scene.
+/// The parts that a World takes over from the one before: an edit in the studio changes little of a scene.
 class World::Earlier {
  public:
   Earlier(const Compiled* before, const Scene& scene, const Settings& settings)
@@ -119,7 +119,7 @@ class World::Earlier {
   const Compiled* before_;
   const Scene& scene_;
   bool sameAccel_ = false, sameNormals_ = false;
-  std::vector<Material> materials_;  // of the scene before, as it was shown
+  std::vector<Material> materials_;  // materials of the scene before, as it was shown
   TreesOfMeshes trees_;
   MeshTrees operandTrees_;  // by the data of the scene, without generated normals
 };
@@ -256,7 +256,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     }
     if (flat)  // stays, for the numbering of objects; its empty bounds are never met
       messages.warn(object.place, "the object's transform squeezes it flat, so it is left out");
-    std::vector<std::uint32_t> used{object.material};  // of all its parts
+    std::vector<std::uint32_t> used{object.material};  // materials used by all its parts
     Box3 box;
     if (const auto shared = instance.shape.mesh()) {
       const Displacement displacement(*shared, object.material, materials);

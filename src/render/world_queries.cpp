@@ -1,4 +1,4 @@
-// What a ray asks of the World: one of the two files that see the structs of all shapes, so that the way from
+// Queries of the World by rays: one of the two files that see the structs of all shapes, so that the way from
 // the hierarchy to a crossing is inlined for each. Forms lie side by side, without a pointer to follow.
 #include "base/budget.h"
 #include "base/match.h"

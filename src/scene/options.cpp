@@ -112,7 +112,7 @@ std::span<const std::string_view> namesOf() {
     return kNames<Enum>;
 }
 
-constexpr std::string_view kNone = "none";  // of a set; also no file
+constexpr std::string_view kNone = "none";  // an empty set; also no file
 
 // --- values from and to text --------------------------------------------------------------------------
 
@@ -316,7 +316,7 @@ constexpr Option::Kind kindOf() {
     return Option::Kind::choice;
 }
 
-/// What a row says beside its field.
+/// The text of a row, besides its field.
 struct Text {
   std::string_view name, group, help, source;
   Repeats repeats = Repeats::picture;
@@ -348,7 +348,7 @@ Option row(const Text& t) {
           [](const Option& option, Settings& s, std::string_view text) { parse(option, text, s.*Member); }};
 }
 
-constexpr int kMostPixels = 100000;  // of a side; the memory limit bounds the product
+constexpr int kMostPixels = 100000;  // most pixels of a side; the memory limit bounds the product
 
 const std::array kOptions{
     row<&Settings::width>({.name = "width",

@@ -21,7 +21,7 @@ struct Particles {
   static constexpr std::string_view kHelp =
       "particles: objects that are emitted, move by gravity, drag and wind, and bounce";
   static constexpr int kMostAlive = 100'000;
-  static constexpr double kMostSteps = 1e8;  ///< of all particles together
+  static constexpr double kMostSteps = 1e8;  ///< most steps of all particles together
 
   int seed = 1;
   Real rate = 50, begin = 0, duration = kNoLimit, lifetime = 2, lifetimeSpread = 0.2;

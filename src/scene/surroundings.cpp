@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What nobody takes for the surroundings that were meant.
+/// A picture that stands for missing surroundings.
 Picture missingPicture(int width, int height) {
   Picture checker(width, height);
   for (int y = 0; y < height; ++y)

@@ -1,4 +1,4 @@
-// What is seen where nothing is met, as the scene says it: bands of colour across the picture, which only
+// The background of a scene, as its file gives it: bands of colour across the picture, which only
 // camera rays see, or what is all around, which every ray sees: a gradient, a sky by day, and pictures on the
 // six faces of a cube before them.
 #pragma once
@@ -26,8 +26,8 @@ struct Background {
   /// bands are equally high.
   std::vector<Real> limits;
   std::vector<Color> gradient{};   ///< all around, from straight down to straight up; none: no gradient
-  std::vector<Real> elevations{};  ///< of each, in degrees above the horizon, ascending; none: equally spaced
-  Real turbidity = 0;              ///< of a sky by day (shading/daylight.h); 0: none
+  std::vector<Real> elevations{};  ///< degrees above the horizon, ascending; none: evenly spaced
+  Real turbidity = 0;              ///< turbidity of a sky by day (shading/daylight.h); 0: none
   Vec3 sun{1, 1, 1};               ///< the direction to it
   Real skyBrightness = 0.05;       ///< a colour of 1 for each 1 / skyBrightness kcd/m^2
   Color ground{0.2, 0.2, 0.2};     ///< below the horizon of a sky by day

@@ -1,4 +1,4 @@
-// What a place of a surface does with light: the material models under the conventions of a render.
+// The scattering of light at a surface point: the material models under the conventions of a render.
 //
 // A material says what a person wrote; its Bsdf is what light meets. Each model has both, in one header of
 // shading/materials/. The contract of all functions here is in shading/scattering.h.
@@ -49,8 +49,8 @@ inline const WhittedTerms& whitted(const Bsdf& bsdf) {
   return match(bsdf, [](const auto& model) -> const WhittedTerms& { return model; });
 }
 
-/// What of light from `toLight` goes toward `toEye` in Whitted's equation, the cosine to the normal included.
-/// Here and below Phong's model, the most frequent, is asked without a call.
+/// The fraction of light from `toLight` that goes toward `toEye` in Whitted's equation, the cosine to the
+/// normal included. Here and below Phong's model, the most frequent, is asked without a call.
 Scatter scatterOfOthers(const Bsdf& bsdf, const Frame& frame, const Vec3& toLight, const Vec3& toEye);
 inline Scatter scatter(const Bsdf& bsdf, const Frame& frame, const Vec3& toLight, const Vec3& toEye) {
   if (const auto* phong = std::get_if<PhongBsdf>(&bsdf)) return phong->scatter(frame.normal, toLight, toEye);
@@ -64,7 +64,7 @@ inline Color mirrorWeight(const Bsdf& bsdf, Real cosine) {
   if (const auto* phong = std::get_if<PhongBsdf>(&bsdf)) return phong->mirrorWeight(cosine);
   return mirrorWeightOfOthers(bsdf, cosine);
 }
-/// The same without the rays that stand for lobes, for integrators that follow these.
+/// The terms without the rays that stand for lobes, for integrators that follow these.
 Color exactMirrorWeight(const Bsdf& bsdf, Real cosine);
 /// The weight of the ray that goes straight on, where the passage is straight.
 Color passWeight(const Bsdf& bsdf, Real cosine);

@@ -32,7 +32,7 @@ class Daylight {
     Real at(Real cosTheta, Real gamma) const;
   };
 
-  Vec3 sun_;         // of length 1, not below the horizon
+  Vec3 sun_;         // direction of length 1, not below the horizon
   Real sunFromTop_;  // theta_s
   ColorXyY zenith_;
   Perez Y_, x_, y_;

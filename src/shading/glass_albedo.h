@@ -1,4 +1,4 @@
-// What rough glass mirrors and lets through of light that meets one facet, tabulated, and what becomes of the
+// The albedo of rough glass for light that hits one facet, tabulated, and what becomes of the
 // rest, which meets several (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH
 // 2017 course). Cosines are those to the normal that points out of the body: below 0 they are inside.
 #pragma once

@@ -1,4 +1,4 @@
-// What fills a body, as light that runs in it asks: a part of the materials that refract.
+// The interior of an object, as light inside sees it: a part of the materials that refract.
 #pragma once
 
 #include "base/field.h"
@@ -8,7 +8,7 @@
 namespace trace {
 
 struct Interior {
-  Real priority = 0;  ///< of bodies that overlap the one of the highest priority fills the place
+  Real priority = 0;  ///< where objects overlap, the highest priority fills the space
   Color attenuationColor{1};
   Real attenuationDistance = 1;
   Disperses dispersion = Disperses::byAbbe;

@@ -64,18 +64,18 @@ struct Material {
 
   std::string name;
   MaterialModel model;
-  std::vector<FieldTexture> textures{};  ///< of its model's fields, and of its own
+  std::vector<FieldTexture> textures{};  ///< textures of its model's fields, and of its own
   Real bump = 0;                         ///< its texture bends the normal for shading
   Real opacity = 1;                      ///< share of the surface that is there
   ShadedSides sides = ShadedSides::front;
   Real displacement = 0;       ///< moves the points of meshes (scene/displacement.h)
   int displacementLevels = 0;  ///< so often each triangle is cut in four before
-  // What fills the body (shading/medium.h).
+  // The medium inside (shading/medium.h).
   Real mediumDensity = 0;
   Color mediumScatters{1}, mediumAbsorbs{}, mediumGlows{};
   Real mediumForward = 0;
 
-  /// What a material has whatever its model.
+  /// The fields of a material whatever its model.
   static constexpr auto fields() {
     return Fields{Field{"bump", &Material::bump, "units of the object", -kNoLimit, kNoLimit,
                         "apparent height of the surface where its texture is white"},
@@ -106,7 +106,7 @@ struct Material {
 /// and what it looks like, which is `color` where it is no diffuse reflectance.
 inline constexpr std::string_view kEmissive = "emissive", kAmbient = "ambient", kDiffuse = "diffuse",
                                   kColor = "color";
-/// And what every material has, whatever its model.
+/// The keywords that every material has, whatever its model.
 inline constexpr std::string_view kOpacity = "opacity";
 /// color = change(color) for those of the keywords that the model has.
 void changeColors(MaterialModel& model, std::initializer_list<std::string_view> keywords,
@@ -114,7 +114,7 @@ void changeColors(MaterialModel& model, std::initializer_list<std::string_view> 
 
 /// Fields of the same keyword and type keep their values; the others get the defaults of model `to`.
 MaterialModel converted(const MaterialModel& from, const MaterialModel& to);
-/// The same of a material, whose textures stay where there still is a field for them.
+/// The model of a material, whose textures stay where there still is a field for them.
 Material withModel(Material material, const MaterialModel& to);
 
 /// Changes every picture of the material's textures: change(Pixels&).
@@ -126,9 +126,10 @@ void changePixels(Material& material, const Change& change) {
 /// As Phong's model says it, for formats and checks that know no other: its own values, or the nearest to
 /// them.
 Phong phongOf(const MaterialModel& model);
-/// The same for a material; one that is not wholly there lets light through.
+/// The Phong approximation of a material; one with holes transmits light.
 Phong phongOf(const Material& material);
-/// The same for formats that have no holes: what a texture makes transparent in places is opaque.
+/// The Phong approximation for formats that have no holes: what a texture makes transparent in places is
+/// opaque.
 Phong phongWithoutTextures(const Material& material);
 
 inline bool glows(const Material& material) { return !isBlack(phongOf(material).emissive); }

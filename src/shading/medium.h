@@ -1,4 +1,4 @@
-// What fills a body and scatters, swallows or gives off light on its way: smoke, clouds, milk, fire. A part
+// A medium inside an object that scatters, absorbs or emits light: smoke, clouds, milk, fire. A part
 // of the material (medium_density and the other fields), as light that runs in it asks.
 #pragma once
 

@@ -30,7 +30,7 @@ struct Translucent {
   std::string_view name;
   Color scatters, absorbs;
   Real index;
-  Real roughness;  ///< of its surface, by eye
+  Real roughness;  ///< roughness of its surface, by eye
   std::string_view source;
 };
 

@@ -129,7 +129,7 @@ bool wantsSecondUv(const Texture& texture);
 /// A few words for a person: its name, or what it is.
 std::string summary(const Texture& texture);
 
-/// What a number takes of a colour: of a grey that grey, to the last bit.
+/// The number that stands for a colour: of a grey that grey, to the last bit.
 constexpr Real luminance(const Color& c) {
   return c.r == c.g && c.g == c.b ? c.r : 0.299 * c.r + 0.587 * c.g + 0.114 * c.b;
 }

@@ -12,7 +12,7 @@ namespace trace::studio {
 
 namespace {
 
-/// What the renderer's other flags do is in the menus.
+/// The functions of the renderer's other flags are in the menus.
 const ShortFlag& shortFlag(char letter) {
   std::string known;
   for (const ShortFlag& flag : shortFlags()) {

@@ -25,14 +25,14 @@ std::vector<std::string>& remarks() {
   return all;
 }
 
-/// What a person made of a value.
+/// An edit of a value.
 template <class Value>
 struct Settled {
   std::optional<Value> value{};
   bool typed = false;
 };
 
-/// What the widget made of the value: `shown`, if it says `changed`.
+/// The new value of the widget: `shown`, if it says `changed`.
 template <class Value>
 Settled<Value> settle(ImGuiID id, const Value& shown, bool changed, bool typing) {
   static TypedValue<Value> typed;

@@ -32,7 +32,7 @@ void refreshTextures(WayPictures& ways, const PyramidView& view, Rounding roundi
   }
 }
 
-/// Of that way, if it is as it should be now.
+/// The picture of that strategy, if it is as it should be now.
 const Texture* textureOf(const WayPictures& ways, const Way& way) {
   if (!ways.maker.current()) return nullptr;
   const std::vector<WayPicture>& pictures = ways.maker.pyramid().pictures;
@@ -48,7 +48,7 @@ std::string placesOf(const Way& way) {
          std::to_string(way.camera) + " from the camera's (t)";
 }
 
-/// What the pictures are, or why they are not there.
+/// A line that says what the pictures are, or why they are not there.
 std::string standing(const Studio& studio) {
   const PyramidView& view = studio.rays.pyramid;
   if (view.waits) return "They are made when the picture is finished.";

@@ -52,7 +52,7 @@ std::string joined(const std::vector<std::string>& words, std::size_t first = 0)
   return text;
 }
 
-/// What a landmark covers.
+/// The area that a landmark covers.
 Picture part(const Picture& all, const std::string& name) {
   const auto found = landmarks().find(name);
   if (found == landmarks().end()) throw Error(Fault::usage, "the window shows no \"" + name + "\"");

@@ -1,5 +1,5 @@
-// What the glTF specification asks of the JSON of a file, looked at before anything is made of it: tinygltf
-// takes many a wrong value for one that is missing.
+// Requirements of the glTF specification on the JSON of a file, checked before anything is made of it:
+// tinygltf takes many a wrong value for one that is missing.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -300,7 +300,7 @@ class GltfReader {
   Model model_;  // parsing notes files in it
   tinygltf::Model gltf_;
   std::optional<GltfPose> pose_;
-  std::map<int, std::vector<Object>> parts_;  ///< of meshes that nothing bends
+  std::map<int, std::vector<Object>> parts_;  ///< parts of meshes without a skin
   std::uint64_t allowance_ = 1 << 20;         ///< bytes of accessors that may still be read
   Unique<Vec3f> colors_;
   MeshRepairs repairs_;

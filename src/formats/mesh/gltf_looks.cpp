@@ -81,7 +81,7 @@ struct GltfLooks::Reader {
   const Place place;
   Messages& messages;
   using UvSets = GltfLooks::UvSets;
-  std::vector<UvSets> uvSets{};    ///< of materials
+  std::vector<UvSets> uvSets{};    ///< uv sets of materials
   std::map<int, Pixels> inFile{};  ///< pictures in the file
   InsidePictures inside{};
   UnusedTextures unused{};

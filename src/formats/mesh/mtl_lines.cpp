@@ -85,7 +85,7 @@ const Row* rowOf(const std::array<Row, N>& rows, std::string_view key) {
 
 std::string quoted(std::string_view word) { return "\"" + std::string(word.substr(0, 40)) + "\""; }
 
-/// What an option of a single word can be told.
+/// The values of an option of a single word.
 bool isOptionValue(std::string_view word) {
   constexpr std::array<std::string_view, 19> kValues{
       "on",         "off",       "r",         "g",          "b",      "m",        "l",

@@ -1,5 +1,5 @@
-// What reading one .ray file finds beside the scene: errors, warnings told once per kind with their number,
-// nodes that are kept but not rendered, and signs of the dialect it was written in.
+// Findings of reading one .ray file, besides the scene: errors, warnings told once per kind with their
+// number, nodes that are kept but not rendered, and signs of the dialect it was written in.
 #pragma once
 
 #include <map>
@@ -34,7 +34,7 @@ class Findings {
 
   std::size_t errors() const { return errors_; }
 
-  /// What the file says of what its kind would give it (formats/kind_defaults.h).
+  /// The parts that the file gives of its kind's defaults (formats/kind_defaults.h).
   KindGiven& given() { return given_; }
   /// The file is of the kind `Trace 1`: words that nobody knows are errors.
   bool isOfKind() const { return syntax_.isOfKind(); }

@@ -181,7 +181,7 @@ class Expander : Evaluator {
 
   // --- calls ---
 
-  /// What a call of a name makes. `block` overrides what it is made of; 0 for none.
+  /// The nodes that a call of a name makes. `block` overrides what it is made of; 0 for none.
   void made(std::uint32_t call, const Found& found, const Scoped& scope, std::uint32_t block) {
     const Binding& binding = *found.binding;
     const std::uint32_t brackets = call + 2;

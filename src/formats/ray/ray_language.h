@@ -29,7 +29,7 @@ inline constexpr int kMostCalls = 200;
 /// uses nothing of the language.
 void expand(Syntax& syntax, SceneTime& time, InputFiles& inputs);
 
-/// What the reader makes a scene of: the tree at `time`, expanded, with values in the place of keys.
+/// The tree of which the reader makes a scene: that at `time`, expanded, with values in the place of keys.
 void settle(Syntax& syntax, SceneTime& time, InputFiles& inputs);
 
 /// A row of the table of functions.

@@ -127,7 +127,7 @@ bool takeOver(const Scene& read, const Scene& now, Wanted& wanted) {
   return true;
 }
 
-/// What the materials of a text become, told by the objects that have them.
+/// The materials of a text after the edits, found by the objects that have them.
 class MaterialMap {
  public:
   MaterialMap(const Scene& from, const Scene& to) : from_(from), to_(to), map_(from.materials.size()) {

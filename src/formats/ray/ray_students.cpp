@@ -346,7 +346,7 @@ class Translator {
       if (sameWord(name, theirs)) return ours;
     return {};
   }
-  /// What a name or number in an expression stands for.
+  /// The value of a name or number in an expression.
   std::optional<Index> operandOf(Index block, Index operand) const {
     if (kind(operand) == Kind::word) return field(block, at(operand).text());
     return {};

@@ -62,7 +62,7 @@ class TracedBlend {
   /// A step of the evaluation: a solid, or what the two values before become.
   struct Step {
     bool leaf = true;
-    std::size_t index = 0;  ///< of forms_
+    std::size_t index = 0;  ///< index of forms_
     CsgOperation operation = CsgOperation::unite;
     Real radius = 0;
   };
@@ -78,7 +78,7 @@ class TracedBlend {
   std::int64_t partAt(const Vec3& p) const;
 
   std::vector<DistanceForm> forms_;
-  std::vector<std::uint32_t> materials_;  ///< of each form
+  std::vector<std::uint32_t> materials_;  ///< materials of each form
   std::vector<Step> steps_;
   Box3 bounds_;
 };

@@ -20,10 +20,10 @@ namespace trace {
 
 class TracedCopies;
 
-/// What stands at the last level.
+/// The seed: the shape at the last level.
 enum class Seed {
   cube,         ///< from -0.5 to 0.5 in x, y and z
-  ball,         ///< of radius 0.5
+  ball,         ///< ball of radius 0.5
   tetrahedron,  ///< on four corners of the cube
 };
 constexpr std::array<std::string_view, 3> names(Seed) { return {"cube", "ball", "tetrahedron"}; }
@@ -84,12 +84,12 @@ class TracedCopies {
   std::int64_t partCount() const { return leaves_ * kFaces; }
 
  private:
-  static constexpr std::int64_t kFaces = 6;  ///< of a seed; a part is a face of a leaf
+  static constexpr std::int64_t kFaces = 6;  ///< faces of a seed; a part is a face of a leaf
   /// A stretch of the line inside a seed.
   struct Stretch {
     Crossing in, out;
   };
-  /// Of a ray that meets very many copies the stretches are joined before all are found: a union of millions
+  /// If a ray crosses very many copies, the stretches are joined before all are found: a union of millions
   /// of overlapping seeds takes no more memory, and no longer, than what is left of it.
   struct Merging {
     static constexpr std::size_t kFirst = 4096;
@@ -105,7 +105,7 @@ class TracedCopies {
   Seed seed_;
   int levels_;
   std::int64_t leaves_ = 1;
-  std::vector<Box3> boxes_;  ///< of the copies of each number of levels
+  std::vector<Box3> boxes_;  ///< boxes of the copies of each number of levels
   Box3 reach_, bounds_;      ///< reach_: holds every level; bounds_: the last
   Real error_ = 0;
 };

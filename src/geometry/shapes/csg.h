@@ -35,7 +35,7 @@ class Operands {
   std::shared_ptr<const std::vector<Operand>> list_;
 };
 
-/// What is made of solids.
+/// The operation on the solids.
 enum class CsgOperation { unite, intersect, subtract };
 constexpr std::array<std::string_view, 3> names(CsgOperation) {
   return {"union", "intersection", "difference"};

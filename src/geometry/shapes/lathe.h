@@ -54,7 +54,7 @@ class TracedLathe {
     Real u0, u1;  ///< from where it is lowest to where it is highest
     Real r0, z0, r1, z1;
     Real least, most;  ///< distance from the axis, at least and at most
-    int number;        ///< of the curve, along the profile with its caps
+    int number;        ///< number of the curve, along the profile with its caps
     bool flat() const { return z0 == z1; }
     /// Precondition: not flat. Where the arc is at that height.
     Real at(Real z) const { return at(z, 0.5 * (u0 + u1)); }

@@ -75,7 +75,7 @@ struct Menger {
   struct Walk {
     const Ray& ray;
     const Range& range;
-    int count;          ///< of finest cells along an axis
+    int count;          ///< count of finest cells along an axis
     Crossing from, to;  ///< the solid stretch met last
     bool open;          ///< ... is not visited yet
 

@@ -37,7 +37,7 @@ struct Metaballs {
   std::shared_ptr<const TracedMetaballs> prepared() const;
 };
 
-/// What rays meet of them. Along a ray the sum is, between the places where components begin and end, a
+/// Their traced form. Along a ray the sum is, between the places where components begin and end, a
 /// polynomial of degree four, whose extrema say where to look.
 class TracedMetaballs {
  public:

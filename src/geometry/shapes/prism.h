@@ -63,7 +63,7 @@ class TracedPrism {
   }
 
  private:
-  static constexpr int kStepBits = 24;  ///< of a part: where on the arc, roughly
+  static constexpr int kStepBits = 24;  ///< step bits of a part: where on the arc, roughly
   static constexpr std::int64_t kBottom = 0, kTop = 1, kFirstSide = 2;
 
   struct Arc {

@@ -68,7 +68,7 @@ struct Puff {
     if (leaving && !within) return 0;
     const auto before = [&](Real s) {
       return s * (h2 - s * s / 3);
-    };  // of the density, from the nearest place
+    };  // coefficients of the density, from the nearest place
     const Real passed = before(h) - before(leaving ? std::clamp(middle, -h, h) : -h);
     const Real share = 1 - std::exp(-std::abs(depth) * 0.75 * passed);
     return std::llround(std::clamp(share, 0.0, 1.0) * static_cast<Real>(kLevels - 1));

@@ -49,7 +49,7 @@ class TracedSweep {
   std::int64_t partCount() const { return static_cast<std::int64_t>(arcs_.size()) << kStepBits; }
 
  private:
-  static constexpr int kStepBits = 24;  ///< of a part: where on the arc, roughly
+  static constexpr int kStepBits = 24;  ///< step bits of a part: where on the arc, roughly
 
   struct Arc {
     Cubic<4> curve;

@@ -1,4 +1,4 @@
-// What rays meet of a grid of heights over x and y from -1 to 1.
+// The traced form of a grid of heights over x and y from -1 to 1.
 //
 // Along the ray, z minus the height of a patch is a polynomial: quadratic for bilinear patches, of degree six
 // for bicubic ones (Catmull-Rom). Its sign says where the ray is below. The sign is carried from cell to

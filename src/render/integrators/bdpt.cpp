@@ -22,7 +22,7 @@ void Bidirectional::prepare(const World& world, const Settings& settings, Job&) 
   lands_ = camera_.known() && !(settings.outlines > 0);
 }
 
-/// What the way counts whose others count so much beside it; 0 if it is not to be shown.
+/// The MIS weight of a strategy whose others sum to `others`; 0 if the strategy is hidden.
 Real Bidirectional::share(int s, int t, Real others, const Sample& sample) const {
   if (!sample.ways.shows(s, t)) return 0;
   return weighs_ ? sample.ways.counts / (1 + others) : 1;

@@ -59,7 +59,7 @@ class Bidirectional : public Integrator {
   struct Scattering;
   struct Sample;
   struct LightPlace;
-  /// What a whole path's place next to the light is.
+  /// The vertex of a whole path next to the light.
   enum class Last { lobe, mirror, medium };
   /// The ways that a sample shows.
   struct Ways {
@@ -91,7 +91,8 @@ class Bidirectional : public Integrator {
   bool goesOn(Flight& flight, const LightPlace& place, const Sample& sample) const;
   void land(Tracer& tracer, const LightPlace& light, const Sample& sample, const Sampler& sampler) const;
 
-  // What joins them: integrators/bdpt_joins.cpp. `factor` is what the place counts beside the path's weight.
+  // The connections of both paths: integrators/bdpt_joins.cpp. `factor` is what the place counts beside the
+  // path's weight.
   void joinAll(Gather& sum, const PathPlace& at, const Path& path, const Counts& counts, const Color& factor,
                const Sampler& sampler, const Sample& sample) const;
   void askLights(Gather& sum, const PathPlace& at, const Path& path, const Color& factor,

@@ -21,13 +21,13 @@ struct Bidirectional::Flight {
   Color through{1};
   bool open = true;  ///< it has met only what shadow rays pass, too: no vertices of the path, as if holes
   Color power{1}, response{1};
-  Real kept = 1;  ///< of its power, where it was scattered last
+  Real kept = 1;  ///< fraction of its power, where it was scattered last
   Partial partial{};
   Counts counts{};
   Last last = Last::lobe;
 };
 
-/// What is left of the light when it gets to its next place: where a medium scatters it, or on the surface.
+/// The light that remains at its next vertex: where a medium scatters it, or on the surface.
 Color Bidirectional::travels(Tracer& tracer, const Flight& f, std::optional<MediumWay::Place>& where) const {
   const Real far = f.hit ? f.hit->t : kInfinity;
   if (f.parallel) {  // sunlight loses nothing to fog

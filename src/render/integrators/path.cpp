@@ -47,7 +47,7 @@ std::unique_ptr<const SubsurfaceBsdf> takeBody(Interaction& at) {
 
 }  // namespace
 
-/// What shines where a path arrives, for which lamps are asked with the density `other`.
+/// The emission where a path arrives, for which lamps are sampled with the density `other`.
 ChanceTerm PathTracer::shines(const Path& path, Real other) {
   if (path.forCache) return {path.density, other, other > 0 ? 0.0 : 1.0};
   return weighed(path.density, other);

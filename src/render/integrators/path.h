@@ -64,7 +64,7 @@ class PathTracer : public Integrator {
   struct Maps {
     PhotonMap all, caustics, media;
   };
-  std::vector<Maps> maps_;  ///< of each pass; one of empty ones without photons
+  std::vector<Maps> maps_;  ///< maps of each pass; one of empty ones without photons
   IrradianceCache cache_;
 };
 

@@ -8,12 +8,12 @@ namespace trace {
 struct PathTracer::Path {
   RayKind kind = RayKind::camera;
   int depth = 0;
-  Color weight{1};   ///< of the ray's radiance in the sample
-  Real density = 0;  ///< of its direction, among lobes; 0 where there was one only
-  const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
+  Color weight{1};   ///< weight of the ray's radiance in the sample
+  Real density = 0;  ///< density of its direction, among lobes; 0 where there was one only
+  const Differentials* differentials = nullptr;  ///< differentials of the ray, if footprints are needed
   Real ink = 0;                                  ///< how much of it an outline covers
   bool gathers = false;                          ///< photons tell what is scattered where it arrives
-  const Maps* maps = nullptr;                    ///< of these
+  const Maps* maps = nullptr;                    ///< photon maps of the sample
   int scattered = 0;                             ///< so often by media
   bool within = false;                           ///< it runs in a body, from where light comes out
   bool forCache = false;                         ///< what shines and is asked for does not count
@@ -29,8 +29,8 @@ struct PathTracer::Path {
 struct PathTracer::Scattering {
   Gather sum;
   MediumTerm how;
-  Color factor{}, passed{};  ///< of what comes, and of the way to the eye
-  // What goes on.
+  Color factor{}, passed{};  ///< radiance of the continuation, and transmittance of the way to the eye
+  // The continuation of the path.
   Ray ray{};
   std::optional<Hit> hit{};
   Path path{};

@@ -11,7 +11,7 @@
 namespace trace {
 
 struct LightLinks {
-  std::string name;                     ///< of the light; may be empty
+  std::string name;                     ///< name of the light; may be empty
   std::vector<std::string> lights{};    ///< names of the objects that it lights; none: all
   std::vector<std::string> excludes{};  ///< names of objects that it does not light
 

@@ -79,7 +79,7 @@ struct ProjectorLight {
     const Vec2 half = this->half();
     const Vec2 uv{0.5 - dot(arriving->toLight, aim.right) / (2 * half.x * ahead),
                   0.5 - dot(arriving->toLight, aim.up) / (2 * half.y * ahead)};
-    const Real across = blur * half.y / half.x;  // of the picture's width
+    const Real across = blur * half.y / half.x;  // relative to the picture's width
     const Real inFrame = within(uv.x, across) * within(uv.y, blur);
     if (!(inFrame > 0)) return {};
     arriving->attenuation *= inFrame;

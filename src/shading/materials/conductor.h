@@ -50,7 +50,7 @@ struct Conductor : SurfaceFields {
   }
   bool operator==(const Conductor&) const = default;
 
-  /// What one facet mirrors.
+  /// The reflectance of one facet.
   Color mirrored(Real cosine) const {
     const ThinFilm oxide{filmIndex, 1, film};
     if (metal == Metal::none) {

@@ -56,7 +56,7 @@ struct MarschnerBsdf : LocalBsdf<MarschnerBsdf, Marschner> {
   static constexpr std::size_t kLobes = 4;  ///< R, TT, TRT, and the rest
 
   std::array<Real, kLobes> variance{};  ///< along the strand
-  Real scale = 0;                       ///< of the logistic curve around it
+  Real scale = 0;                       ///< scale of the logistic curve around it
   Color absorption;                     ///< along one radius
 
   MarschnerBsdf() = default;

@@ -35,7 +35,7 @@ struct OrenNayar : SurfaceFields {
 };
 
 struct OrenNayarBsdf : LocalBsdf<OrenNayarBsdf, OrenNayar> {
-  Real a = 1, b = 0;  ///< of equation 30
+  Real a = 1, b = 0;  ///< a and b of equation 30
 
   OrenNayarBsdf() = default;
   explicit OrenNayarBsdf(const OrenNayar& model) : LocalBsdf(model) {

@@ -22,7 +22,7 @@ struct Phong : Interior {
 
   Color emissive, ambient, diffuse, specular, reflective, transmissive;
   Real shininess = 0;  ///< exponent of the highlight
-  Real index = 1;      ///< of refraction
+  Real index = 1;      ///< index of refraction
   Real shadow = 1;     ///< how dark shadows on it are: 0 shows none
 
   static constexpr auto fields() {
@@ -80,8 +80,8 @@ struct PhongBsdf : WhittedTerms {
   Color mirrorWeight(Real) const { return reflective; }
   Color passWeight(Real) const { return transmissive; }
 
-  /// What of light from `toLight` goes toward `toEye` at a surface of normal `n` (all unit vectors).
-  /// The highlight is not multiplied by N.L.
+  /// The fraction of light from `toLight` that goes toward `toEye` at a surface of normal `n` (all unit
+  /// vectors). The highlight is not multiplied by N.L.
   Scatter scatter(const Vec3& n, const Vec3& toLight, const Vec3& toEye) const {
     const Real cosLight = dot(n, toLight);
     Scatter scatter{diffuse * (litFromBehind ? std::abs(cosLight) : std::max(0.0, cosLight)), {}};
@@ -100,7 +100,7 @@ struct PhongBsdf : WhittedTerms {
     return scatter;
   }
 
-  /// The same where light transport asks: only light on the eye's side of the surface, or either side where
+  /// The scattering for light transport: only light on the eye's side of the surface, or either side where
   /// it is lit from behind.
   Color evaluate(const Frame& frame, const Vec3& toEye, const Vec3& toLight, Transport) const {
     if (!(dot(frame.normal, toEye) > 0) || !(litFromBehind || dot(frame.normal, toLight) > 0))

@@ -195,7 +195,7 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
   }
 
  private:
-  /// What one facet of metal mirrors.
+  /// The reflectance of one facet of metal.
   Color metalMirrors(Real cosine) const {
     const Color bare = schlick(cosine, said.color);
     if (!(said.iridescence > 0 && said.iridescenceThickness > 0)) return bare;
@@ -205,12 +205,12 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
   static void cover(Scatter& below, Real through, const Color& layer) {
     below = {below.diffuse * through, below.specular * through + layer};
   }
-  /// Of light that meets a facet at that cosine, through it and the colour below.
+  /// The transmittance of a facet at that cosine, and of the colour below.
   Color passed(Real cosine) const {
     const Color mirrors = plastic.fresnel(cosine) * said.specularStrength;
     return said.color * (Color(1) + mirrors * -1) * passing;
   }
-  /// What the layers leave of light from one direction to another.
+  /// The transmittance of the layers from one direction to another.
   Real layers(const Vec3& eye, const Vec3& light, const Vec3& coat) const {
     Real through = isBlack(said.sheen) ? 1 : throughSheen(eye, light);
     if (said.clearcoat > 0) through *= throughClear(clearAt(eye, light, coat));

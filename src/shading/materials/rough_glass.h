@@ -63,7 +63,7 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
   static constexpr bool kTwoSided = true, kHasInside = true;
 
   Microfacets facets;
-  GlassLoss loss;  ///< of light that meets several facets, where it is compensated
+  GlassLoss loss;  ///< loss of light that meets several facets, where it is compensated
 
   RoughGlassBsdf() = default;
   explicit RoughGlassBsdf(const RoughGlass& model) : LocalBsdf(model) {

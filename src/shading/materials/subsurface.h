@@ -95,13 +95,13 @@ struct SubsurfaceBsdf : LocalBsdf<SubsurfaceBsdf, Subsurface> {
     return other;
   }
 
-  /// What of light to the eye comes out of the body.
+  /// The fraction of light to the eye that leaves the object.
   Color passes(Real cosine) const {
     const Color mirrored = coat.albedo({0, 0, max(0, min(1, cosine))});
     return {max(0, 1 - mirrored.r), max(0, 1 - mirrored.g), max(0, 1 - mirrored.b)};
   }
 
-  /// What goes in of light from there, over what goes in of light from everywhere.
+  /// The light that enters from there, over the light that enters from everywhere.
   Color enters(Real cosine) const {
     const Color in = passes(cosine);
     const auto share = [](Real a, Real mirrored) { return mirrored < 1 ? a / (1 - mirrored) : 0; };

@@ -71,7 +71,7 @@ struct WardBsdf : LocalBsdf<WardBsdf, Ward> {
   }
   Real directionDensity(const Vec3& eye, const Vec3& light) const {
     Vec3 half = halfway(eye, light);
-    if (half.z < 0) half = -half;  // of a mirror that is seen from behind
+    if (half.z < 0) half = -half;  // for a mirror that is seen from behind
     const Real facing = std::abs(dot(eye, half));
     const Real spread = Microfacets{Distribution::beckmann, ax, ay}.spread(half) * half.z;
     return (facing > 0 ? share * spread / (4 * facing) : 0) + (1 - share) * cosineDensity(light);

@@ -32,7 +32,7 @@ struct Granite : PatternColors, FractalSum {
     const PatternPlace p(place, TextureSpace::point);
     const Real value = FractalSum::at<3>({p.at.x * frequency, p.at.y * frequency, p.at.z * frequency},
                                          p.widest() * std::abs(frequency));
-    const Real mean = sum == SumKind::fractal ? 0 : 0.437;  // of turbulence in 3 dimensions
+    const Real mean = sum == SumKind::fractal ? 0 : 0.437;  // mean of turbulence in 3 dimensions
     return 0.5 + contrast * (value - mean);
   }
   Color at(const TexturePlace& place) const { return shade(pattern(place)); }

@@ -16,7 +16,7 @@ namespace trace {
 /// A picture file that lies inside the file of a scene.
 struct InsideFile {
   std::string name;   ///< that the scene's file gives it; may be empty
-  std::string bytes;  ///< of the picture file
+  std::string bytes;  ///< bytes of the picture file
 };
 
 /// The pixels of a file, behind a shared const handle; null until they are loaded (formats/textures.h).
@@ -29,13 +29,13 @@ struct Pixels {
   bool operator==(const Pixels& other) const { return file == other.file; }
 };
 
-/// What of a texel counts.
+/// The channel of a texel that is used.
 enum class Channel { color, red, green, blue, alpha };
 constexpr std::array<std::string_view, 5> names(Channel) {
   return {"color", "red", "green", "blue", "alpha"};
 }
 
-/// What it tells where it is a material's `bump`.
+/// The meaning of the picture as a material's `bump`.
 enum class Relief {
   heights,
   normals,      ///< in the frame of tangents; green counts up, as in OpenGL and glTF

@@ -1,4 +1,4 @@
-// What patterns share: the space they lie in, the colours of their numbers, and waves.
+// Parts common to patterns: the space they lie in, the colours of their numbers, and waves.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace trace {
 
-/// What a pattern lies in.
+/// The space of a pattern.
 enum class TextureSpace { point, uv };
 constexpr std::array<std::string_view, 2> names(TextureSpace) { return {"point", "uv"}; }
 
