@@ -5,7 +5,7 @@ set -euo pipefail
 
 build="$(cd -- "$1" && pwd -P)"
 cd -- "${2:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
-# From a folder of its own, for ctest writes over the log of a run that goes on.
+# From a folder of its own, for ctest writes over the log of a running test.
 listing="$(mktemp -d)"
 trap 'rm -rf -- "$listing"' EXIT
 echo "subdirs(\"$build\")" >"$listing/CTestTestfile.cmake"

@@ -11,7 +11,7 @@ namespace trace {
 namespace {
 
 constexpr double kMiddle = 0.52;  // the mean of the values shown, 0 to 1: a little above middle grey in sRGB
-constexpr double kBright = 0.85;  // what the brightest are shown as at most, but for
+constexpr double kBright = 0.85;  // what the brightest are shown as at most, except for
 constexpr double kLights = 0.05;  // this share: lights and highlights,
 constexpr double kLamp = 30;  // and what is so many times as bright as the middle one: lamps, however large
 constexpr double kMostStops = 30;  // up or down

@@ -46,8 +46,8 @@ Settings ofCells(Settings settings) {
   return settings;
 }
 
-/// The level that the eye judges by: the brightest channel, as the file will have it but for what needs the
-/// whole picture.
+/// The level that the eye judges by: the brightest channel, as the file will have it except for what needs
+/// the whole picture.
 double levelOf(const Color& linear, const Development& development) {
   const Color shown = developed(linear, development);
   const double most = std::max({shown.r, shown.g, shown.b});

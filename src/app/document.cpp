@@ -218,7 +218,7 @@ SceneAt Document::sceneAt() const {
   return [text = now.text, scene = now.scene, edited = std::string(),
           rules = ReadScope::current()](Real time) mutable {
     const ReadScope scope(rules);
-    Messages known;  // they were told when the scene was read
+    Messages known;  // reported when the scene was read
     if (edited.empty() && !(*scene == *text->scene))
       edited = writeEdited(*text, *scene, text->file, known).files.front().bytes;
     return readScene(text->file, edited.empty() ? *text->bytes : edited, known, time);

@@ -137,7 +137,7 @@ std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, cons
     check.run(s, findings);
     work.reached(&check - lintChecks().data() + 1);
   }
-  // Parts of one object are told of once.
+  // Parts of one object are reported once.
   std::vector<LintFinding> once;
   for (LintFinding& finding : findings)
     if (std::none_of(once.begin(), once.end(), [&](const LintFinding& other) {

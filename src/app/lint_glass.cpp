@@ -1,4 +1,4 @@
-// The check of bodies of glass inside and across one another.
+// The check of glass objects inside and across one another.
 #include <algorithm>
 #include <optional>
 #include <utility>

@@ -2,9 +2,9 @@
 //
 // Places are asked at which paths from the camera arrive, as the integrator would follow them, and those that
 // a light shines on first, where the camera sees them or on objects that no path has met: a light may be
-// there for what is not in the picture. Each asks the lights of which nothing has come so far, as an
+// there for what is not in the picture. Each samples the lights of which nothing has come so far, as an
 // integrator asks them: by links, cones, falloff, the material and the tracer's own shadow rays. So a light
-// is told of only if it gives exactly nothing at many places.
+// is reported only if it gives exactly nothing at many places.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -212,7 +212,7 @@ class LightSearch {
     });
   }
 
-  /// Light goes on from there, whatever is scattered.
+  /// Light continues from there, whatever is scattered.
   bool goesOn(const Interaction& at) const {
     return (bounces_ || photons_) && (at.transmits || !isBlack(at.mirror(false)));
   }
@@ -240,7 +240,7 @@ class LightSearch {
   std::unique_ptr<const Integrator> integrator_;
   PixelTracer pixels_;
   SampleRules rules_;
-  bool photons_;  ///< mirrors and glass throw light on other things
+  bool photons_;  ///< mirrors and glass have caustics
   bool bounces_;  ///< everything does
   int asked_ = 0;
   std::vector<bool> seen_;  ///< objects that a path from the camera has met
@@ -249,8 +249,8 @@ class LightSearch {
 
 }  // namespace
 
-/// After the checks that know a reason, and not where something is told to be unlit. In fog and smoke the air
-/// itself is lit.
+/// After the checks that know a reason, and not where something is reported as unlit. In fog and smoke the
+/// air itself is lit.
 void lightReachesNothing(const LintScene& s, Findings& findings) {
   if (s.settings.fog > 0 || !s.world.media().empty() || s.survey.met == 0) return;
   for (const SilentLight& light : LightSearch(sparseOf(s.settings), s.world).find()) {

@@ -122,7 +122,7 @@ void depthTooLow(const LintScene& s, Findings& findings) {
   constexpr double kOfPicture = 0.04, kOfObject = 0.2, kFewest = 5;
   const double samples = s.survey.samples;
   if (s.survey.cutShort.empty()) return;
-  // One glass on a large table is to be told of, too.
+  // One glass on a large table is to be reported, too.
   const auto cut = static_cast<double>(s.survey.cutShort.size());
   const double few = cut >= kOfPicture * samples
                          ? kOfPicture * samples

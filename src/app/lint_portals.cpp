@@ -22,7 +22,7 @@ struct PortalLook {
       past = 0;  ///< numbers of points at their other ends: all, and those that see the sky past portals
 };
 
-/// The first opaque thing on the ray; what passes light or has holes is none.
+/// The first opaque thing on the ray; what transmits light or has holes is none.
 std::optional<Found> firstOpaque(const World& world, const Ray& ray) {
   for (const Found& found : allCrossings(world, ray, kInfinity))
     if (world.opaque(found.object)) return found;

@@ -26,7 +26,7 @@ struct Survey {
     int unlinked = 0;                        ///< pairs of a place and a light that links keep off the object
     int outOfCone = 0;                       ///< pairs of a place and a spot light that shines elsewhere
     std::map<std::uint32_t, int> blockedBy;  ///< pairs of a place and a light, by what is between
-    int sent = 0;                            ///< mirrored and refracted rays that went on from it
+    int sent = 0;                            ///< mirrored and refracted rays that continued from it
     int leftScene = 0;     ///< number of those that hit nothing, where a background would be seen
     int mirroredAway = 0;  ///< number of those that were mirrored
   };

@@ -41,7 +41,7 @@ TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int
 
 class PixelInspector {
  public:
-  /// Wants the rays of that sample; to be called often. Returns at once. Without a session: none.
+  /// Requests the rays of that sample; to be called often. Returns at once. Without a session: none.
   void want(const std::shared_ptr<const Session>& session, int x, int y, int sample);
   /// Keeps the rays that are there, to compare others with; or keeps them no longer.
   void pin(bool on);

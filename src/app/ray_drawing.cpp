@@ -129,7 +129,7 @@ DrawnPicture faint(const World& world, Settings settings, const Point2& at, doub
   return {at, std::move(picture)};
 }
 
-/// The same by how much what is met faces the eye, without the light of the scene: of rooms with few samples
+/// Shades surfaces by how much they face the eye, without the light of the scene: of rooms with few samples
 /// by `path` there would be nothing but noise. Walls that hide the place `inside` are left out.
 DrawnPicture sketch(const World& world, const std::vector<std::uint32_t>& walls, const Vec3& inside,
                     const Point2& at, double width, double height) {

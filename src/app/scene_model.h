@@ -19,7 +19,7 @@ namespace trace {
 struct ScenePart {
   std::uint32_t object = 0;          ///< index into Scene::objects
   Color color;                       ///< what it looks like in white light
-  Real opacity = 1;                  ///< less of what lets light through
+  Real opacity = 1;                  ///< less of what transmits light
   std::size_t first = 0, count = 0;  ///< first and count of SceneModel::corners
   std::array<Vec3, 8> box;  ///< box of the object's own bounds, in the world: bits of the index are x, y, z
 };
@@ -39,7 +39,7 @@ struct SceneModel {
   }
 };
 
-/// Around the objects that have an end and the camera, but for those so far out that the others would be a
+/// Around the objects that have an end and the camera, except for those so far out that the others would be a
 /// dot beside them. Empty if there are none.
 Box3 frameOf(const Scene& scene);
 
@@ -47,7 +47,7 @@ Box3 frameOf(const Scene& scene);
 class SceneModeler {
  public:
   /// Models all objects. It leaves out those whose transform cannot be undone, as a render does, and those
-  /// that frameOf() leaves out. Objects without end are cut off some way around the others and the camera.
+  /// that frameOf() leaves out. Infinite objects are cut off some way around the others and the camera.
   /// `cancelled`, if any, is asked after every object; then the rest is left out.
   SceneModel model(const Scene& scene, const Cancelled& cancelled = {});
 

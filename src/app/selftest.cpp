@@ -142,7 +142,7 @@ double notExplained() {
   return wrong;
 }
 
-/// Pixels of the mixture that change if it is stopped on the way, kept as bytes and gone on with.
+/// Pixels of the mixture that change if it is stopped on the way, kept as bytes and resumed.
 double afterAStop() {
   const auto part = sessionOf(kMixture), rest = sessionOf(kMixture);
   std::thread stopper([&] {

@@ -168,7 +168,7 @@ double brighter(Room room, const Choices& other) {
   const Agreement a = agreementOf(room, kPath, other, kSeeds);
   return (a.meanB - a.meanA) / a.error;
 }
-/// ... in parts of it, without an end of the bounces.
+/// ... as a fraction of it, without an end of the bounces.
 double ratio(Room room, const Choices& other) {
   const Agreement a = agreementOf(room, kPathDeep, other, kSeeds);
   return a.meanB / a.meanA;

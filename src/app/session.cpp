@@ -131,7 +131,7 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   if (read.changesWithTime)
     sceneAt_ = [file, bytes, rules = ReadScope::current()](Real moment) {
       const ReadScope scope(rules);
-      Messages known;  // they were told of the scene
+      Messages known;  // reported for the scene
       return readScene(file, bytes, known, moment);
     };
   fingerprint_ = scene_.inputs.fingerprint();

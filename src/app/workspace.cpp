@@ -199,7 +199,7 @@ void Workspace::takeReread() {
     if (last)
       wanted_.reset();
     else {
-      // the drag goes on
+      // the drag continues
       wanted_->continues = wanted_->option == change.option;
       wanted_->anew = false;
     }

@@ -43,7 +43,7 @@ using Verbs = EnumSet<Verb>;
 
 enum class StatsStyle { none, table, json };
 
-/// Whether a render goes on from the checkpoint beside its picture, and whether it keeps it at the end.
+/// Whether a render continues from the checkpoint beside its picture, and whether it keeps it at the end.
 enum class Resume { goOn, keep, never };
 
 /// The flags of `ray convert`.

@@ -53,7 +53,7 @@ void checkAllPlaces(const Session& session, const std::string& pattern, const st
       if (std::filesystem::exists(file.path, ignored)) checkIsNoInput(file.path, session.scene().inputs);
 }
 
-/// Where the command stopped, and how to go on: all frames from `stoppedAt` on are still to come.
+/// Where the command stopped, and how to continue: all frames from `stoppedAt` on are still to come.
 std::string howToGoOn(const std::vector<int>& frames, int stoppedAt) {
   const std::string first = std::to_string(stoppedAt);
   std::string rest = first;

@@ -28,7 +28,7 @@ RenderResult renderPictureWatched(Session& session, const Arguments& arguments, 
                                   const Part& part);
 
 /// After the picture has been written: takes the checkpoint of a whole one away, unless it is to be kept.
-/// Returns how to go on from that of a part, as the end of a line; "" where there is none.
+/// Returns how to continue from that of a part, as the end of a line; "" where there is none.
 std::string settleCheckpoint(const Session& session, const RenderResult& result, const Arguments& arguments,
                              const PictureFiles& files);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kLookForChanges = 100;  // milliseconds
 
-/// Thrown in the midst of a picture that is written while the render goes on.
+/// Thrown in the midst of a picture that is written while the render continues.
 struct SaveEnded {};
 
 }  // namespace

@@ -21,7 +21,7 @@
 // and, where its inside is of another material than its surface there,
 //   inside(part, own)          that of the inside
 //
-// A shape that has to be worked out before it is traced (coefficients, hierarchies, children) has instead
+// A shape that has to be computed before it is traced (coefficients, hierarchies, children) has instead
 //   prepared()          what rays meet in its place, or a shared handle to it: something with the four above.
 // prepare() asks for it once. Where that takes long, it adds
 //   checked()           its ShapeFacts, found without; throws what prepared() throws

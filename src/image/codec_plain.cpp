@@ -4,7 +4,7 @@
 // written; Greg Ward, "Real Pixels", Graphics Gems II (1991), and the Radiance picture format, of which
 // flat rows and both run-length codes are read, of RGBE and XYZE, in all eight orientations and with their
 // exposure taken back, and flat rows are written. stb could read both, but
-// version 2.27 loops for ever on a truncated HDR file and takes 16-bit PPM with its bytes swapped.
+// version 2.27 loops infinitely on a truncated HDR file and takes 16-bit PPM with its bytes swapped.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -102,7 +102,7 @@ struct Feature {
         }
         const float middle = values[0].row(y)[x];
         const float least =
-            channels == 1 ? kLeastSlope * middle * middle : kLeastSlope;  // of a depth, relative to it
+            channels == 1 ? kLeastSlope * middle * middle : kLeastSlope;  // for a depth, relative to it
         tolerance.row(y)[x] = std::max(slope, least) * kSurfaces * kSurfaces;
       }
   }

@@ -40,7 +40,7 @@ constexpr int longestWave(int first) { return std::clamp(first, 1, 16); }
 std::vector<Wave> wavesOf(int samples, int first = 0);
 
 /// The mean of samples that may count differently, and below 0: the sum of weight times colour by that of the
-/// weights, so that a plain surface stays plain. Where those below 0 nearly undo the others, by chance, they
+/// weights, so that a plain surface stays plain. Where those below 0 nearly undo the others, at random, they
 /// do not count.
 class WeightedMean {
  public:
@@ -98,7 +98,7 @@ class PixelSum {
   /// Before so many samples nothing is known of the error.
   static constexpr int kFewest = 16;
   /// The standard error of the mean's luminance, as if the samples were independent: more than the true one
-  /// where they are spread evenly. In parts of white or, above white, of the mean.
+  /// where they are spread evenly. Relative to white or, above white, of the mean.
   double error() const;
   /// The variance of the mean's luminance, likewise.
   double variance() const;

@@ -20,7 +20,7 @@ struct Splat {
   Color value;
 };
 
-/// Not for several threads at once, but for those that hold its mutex.
+/// Not for several threads at once, except for those that hold its mutex.
 class SplatPlane {
  public:
   SplatPlane(int width, int height)

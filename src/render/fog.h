@@ -20,8 +20,8 @@ class Fog {
         forward_(std::clamp(settings.fogForward, -kMostForward, kMostForward)) {}
 
   bool none() const { return !(density_ > 0); }
-  /// How much of it lies along so much of the ray: what passes is exp(-depth). With a height, it thins out
-  /// upward, along y.
+  /// How much of it lies along so much of the ray: the transmittance is exp(-depth). With a height, it thins
+  /// out upward, along y.
   Real depth(const Ray& ray, Real t) const;
   Real passes(const Ray& ray, Real t) const { return std::exp(-depth(ray, t)); }
   /// The transmittance to a light that far away along the ray. Light from infinity is what arrives, and loses
@@ -47,12 +47,12 @@ inline bool isInOpenAir(const Interfaces& inside, const World& world) {
   return object == Filling::kAir || !world.solid(object);
 }
 
-/// Covers what has been summed with the fog before it: what passes along the ray up to t, which may be
+/// Covers what has been summed with the fog before it: the transmittance along the ray up to t, which may be
 /// infinite.
 void coverWithFog(Gather& sum, const Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside);
 /// Covers what has been summed with the fog before it, and adds the light of the scene's lights in that fog:
 /// of the ray that ran on to t, which may be infinite, in `inside`. `ambient` is light from everywhere;
-/// `lamps`, if any, are objects that shine.
+/// `lamps`, if any, are emissive objects.
 void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
             const Color& ambient, const Lamps* lamps, const Sampler& sampler);
 

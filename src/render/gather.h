@@ -85,7 +85,7 @@ class Gather {
     add(Term{Term::Kind::irradiance, factor, value, Tracer::kNoNode, {}, {}, {}, {}, {}, {}, cache});
   }
 
-  /// sum += factor * value of a medium, whose light may be chosen by chance.
+  /// sum += factor * value of a medium, whose light may be chosen at random.
   void add(const Color& factor, const Color& value, const MediumTerm& medium,
            const std::optional<ChanceTerm>& chance = {}) {
     add(Term{Term::Kind::medium, factor, value, Tracer::kNoNode, {}, chance, {}, {}, medium});
@@ -120,7 +120,7 @@ class Gather {
   void note(const std::optional<Vec3>& raised) {
     if (Tracer::recorded(node_)) tracer_.record(node_, raised);
   }
-  /// Notes why a ray is not sent on: one of RayEnd.
+  /// Notes why a ray is not continued: one of RayEnd.
   template <class Why>
   void stop(const Why& why) {
     if (Tracer::recorded(node_)) tracer_.record(node_, RayEnd(why));

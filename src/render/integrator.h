@@ -30,7 +30,7 @@ struct CameraRay {
   Real weight = 1;                               ///< what its radiance counts in the mean of the pixel
   const Differentials* differentials = nullptr;  ///< null if no footprints are needed
   Real ink = 0;                                  ///< how much of the sample is an outline, which is black
-  std::vector<Thrown>* thrown = nullptr;         ///< takes what lands elsewhere; null where nobody wants that
+  std::vector<Thrown>* thrown = nullptr;         ///< takes what lands elsewhere; null if not needed
 };
 
 /// There is one for a render; it never changes once it is prepared.
@@ -42,7 +42,7 @@ class Integrator {
   /// be cancelled.
   virtual void prepare(const World&, const Settings&, Job&) {}
 
-  /// It looks at Hit::opacity; for others chance decides whether a ray meets what is there in part.
+  /// It looks at Hit::opacity; for others it is random whether a ray hits a partly open surface.
   virtual bool weighsHoles() const { return false; }
 
   /// The radiance that arrives along the camera ray, which is the one cast last.

@@ -1,5 +1,5 @@
 // The data of a ray's hit on a surface that integrators share: the normal that light sees, what is on both
-// sides and the weights of the rays that go on in one direction only. It stands here once for all
+// sides and the weights of the rays that continue in one direction only. It stands here once for all
 // integrators.
 #pragma once
 
@@ -82,7 +82,7 @@ class Interaction {
   /// Adds what mirrors and glass throw there, of which a map holds all.
   void addCaustics(Gather& sum, const PhotonMap& photons, const Sampler& numbers) const;
 
-  // --- rays that go on in one direction ---
+  // --- rays that continue in one direction ---
 
   /// The refracted rays: light of all colours, or a fan of wavelengths where this surface begins to split it;
   /// nothing if it sends no ray through.

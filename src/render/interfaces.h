@@ -18,7 +18,7 @@ struct Filling {
   std::uint32_t object = kAir;  ///< index into Scene::objects
   Real priority = 0;
   Real index = 1;   ///< index of refraction, at the line d
-  Color passes{1};  ///< what passes of light along a unit of length: Beer's law
+  Color passes{1};  ///< the transmittance along a unit of length: Beer's law
   Dispersion dispersion{};
   /// Bodies of one kind are of the same material, its name and priority aside.
   std::uint32_t kind = kAir;
@@ -33,7 +33,7 @@ struct Sides {
   bool alike() const { return before.object == behind.object || before.kind == behind.kind; }
 };
 
-/// Indices of refraction at a surface: on the ray's side and on the other. What they belong to is told where
+/// Indices of refraction at a surface: on the ray's side and on the other. What they belong to is known where
 /// bodies may be nested.
 struct Indices {
   Real before = 1, behind = 1;
@@ -52,7 +52,7 @@ struct Indices {
         priorityBehind(sides.behind.priority) {}
 };
 
-/// A part of a path's state: the bodies of glass that the ray is in, in the order in which it entered them.
+/// A part of a path's state: the glass objects that the ray is in, in the order in which it entered them.
 ///
 /// The one of the highest priority fills the place; of equals it is the one entered last (Schmidt and Budge,
 /// Simple Nested Dielectrics in Ray Traced Images, 2002). Surfaces at which that does not change are no

@@ -1,4 +1,4 @@
-// Light from all around that was worked out at some places, and is blended between them: Ward, Rubinstein and
+// Light from all around that was computed at some places, and is blended between them: Ward, Rubinstein and
 // Clear, A Ray Tracing Solution for Diffuse Interreflection, SIGGRAPH 1988; with the gradients of Ward and
 // Heckbert, Irradiance Gradients, Eurographics Workshop on Rendering 1992.
 //

@@ -1,9 +1,9 @@
 // Emitters for a path tracer, objects and the environment: it chooses
-// places by chance.
+// places at random.
 //
 // Known are squares, spheres that stayed spheres, and meshes, whose own material is emissive. Other emissive
-// objects are only met by chance. How often one is chosen follows from its area and its colour, and where
-// they have many parts also from the distance (render/light_tree.h). What is around is chosen half of the
+// objects are only met at random. How often one is chosen follows from its area and its colour, and where
+// they have many parts also from the distance (render/light_tree.h). The environment is chosen half of the
 // time, if it is brighter here than there or if portals show where it is seen.
 #pragma once
 
@@ -22,7 +22,7 @@ namespace trace {
 class Lamps {
  public:
   Lamps() = default;
-  /// Where no ray meets lamps by chance, what is around is one as soon as it is not the same all around.
+  /// Where no ray meets lamps at random, the environment is one as soon as it is not the same all around.
   /// Places are then spread over areas, so that Whitted's pictures keep their bits.
   Lamps(const World& world, int threads, bool onlyHere = false);
 
@@ -32,11 +32,11 @@ class Lamps {
 
   /// A place that was chosen.
   struct Place {
-    std::uint32_t object;  ///< kNone: what is around
+    std::uint32_t object;  ///< kNone: the environment
     std::uint64_t part;    ///< the triangle of a mesh
     Vec3 toLight;          ///< unit
     Real density;          ///< density of that direction, per solid angle
-    Real distance;         ///< infinite to what is around
+    Real distance;         ///< infinite to the environment
   };
   /// By three numbers from 0 up to 1. Nothing where the part that was chosen is not seen from there.
   std::optional<Place> choose(const Vec3& from, Real which, const Vec2& u) const;
@@ -45,7 +45,7 @@ class Lamps {
   Real density(const Vec3& from, const Hit& hit) const;
   /// The density for a ray that hit nothing.
   Real density(const Ray& ray) const { return choosesSky() ? skyShare() * skyDensity(ray) : 0; }
-  /// Where a photon of an object that shines starts.
+  /// Where a photon of an emissive object starts.
   struct Start {
     std::uint32_t object;
     Vec3 point, normal;  ///< unit
@@ -64,7 +64,7 @@ class Lamps {
   Real startDensity(const Hit& hit) const;
   /// The power of all these objects: the luminance of their flux.
   Real power() const { return power_; }
-  /// Where a photon of what is around comes from.
+  /// Where a photon of the environment comes from.
   struct SkyStart {
     Vec3 toLight;
     Real density;  ///< per solid angle
@@ -118,7 +118,7 @@ class Lamps {
   }
   bool isLamp(std::uint32_t object) const { return !parts_.empty() && first_[object] != kNone; }
   bool choosesSky() const { return !sky_.empty() || !portals_.empty(); }
-  /// How often what is around is chosen, and how often of these by its brightness, not through a portal.
+  /// How often the environment is chosen, and how often of these by its brightness, not through a portal.
   Real skyShare() const { return !choosesSky() ? 0 : parts_.empty() ? 1 : 0.5; }
   Real tableShare() const { return sky_.empty() ? 0 : portals_.empty() ? 1 : 0.5; }
   Vec3 towardSky(const Vec3& from, Real which, const Vec2& u) const;

@@ -24,7 +24,7 @@ struct Ball {
   Vec3 middle;
   Real radius;
   Real area() const { return 4 * kPi * radius * radius; }
-  /// The solid angle that it covers, and in which places ask for it; 0 from inside.
+  /// The solid angle that it covers, and in which it is sampled; 0 from inside.
   Real angleFrom(const Vec3& place) const {
     const Vec3 way = middle - place;
     const Real sine2 = radius * radius / dot(way, way);

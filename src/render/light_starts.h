@@ -1,4 +1,4 @@
-// Where paths from lights start: at a light of the scene, at a lamp (an object that shines), or far away
+// Where paths from lights start: at a light of the scene, at a lamp (an emissive object), or far away
 // where the sky is; and how likely each start was, which weighs paths against those that reach the same place
 // from the other end (Veach 1997, section 10.2; Pharr, Jakob and Humphreys 2023, section 12.1.2).
 //
@@ -44,19 +44,19 @@ class LightStarts {
   /// The light that arrives straight at a vertex of that path.
   struct Arrival {
     Color power;  ///< over the density of the place and its cosine
-    /// Densities, over the start's: of the start, as places ask for it from the other end; and of meeting it
-    /// by chance, without what only the place knows. 0 where that cannot be.
+    /// Densities, over the start's: of the start, as places sample it from the other end; and of meeting it
+    /// at random, without what only the place knows. 0 where that cannot be.
     Real asked = 0, met = 0;
   };
   /// At the distance t. Nothing where the light does not reach.
   std::optional<Arrival> arrives(const World& world, const Start& start, const Vec3& at, Real t) const;
 
-  /// With which starts go to a place that has asked for light, over the density with which it asked, but for
-  /// the cosine there: of a light of the world that gave it `arriving`; of a lamp and of the sky.
+  /// With which starts go to a place that has sampled it, over the density with which it asked, except
+  /// for the cosine there: of a light of the world that gave it `arriving`; of a lamp and of the sky.
   Real overAsked(const World& world, std::size_t light, const Illumination& arriving, const Vec3& at) const;
   Real overAsked(const Lamps::Place& place, const Vec3& at) const;
   /// With which starts go along a ray that met a lamp or, from that place, the sky: per area and solid angle,
-  /// but for the cosine at a lamp.
+  /// except for the cosine at a lamp.
   Real ofLamp(const Hit& hit) const;
   Real ofSky(const Vec3& at, const Vec3& toLight) const;
 
@@ -74,7 +74,7 @@ class LightStarts {
   /// Where parallel light starts that runs in the direction.
   Ray before(Tracer& tracer, const Vec3& direction, const Vec2& u) const;
   Real diskDensity() const { return 1 / (kPi * radius_ * radius_); }
-  /// The density where such light comes to a point; 0 beside the disk, where a plane may go on.
+  /// The density where such light comes to a point; 0 beside the disk, where a plane may continue.
   Real diskDensity(const Vec3& at, const Vec3& toLight) const;
   Real powerOf(const World& world, std::size_t light) const;
 

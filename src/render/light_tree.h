@@ -1,4 +1,4 @@
-// A choice among many lights, by chance: near, strong ones that shine toward a place are taken more often
+// A choice among many lights, at random: near, strong ones that shine toward a place are taken more often
 // (Conty Estevez and Kulla, Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018; Pharr,
 // Jakob and Humphreys, Physically Based Rendering, 4th edition, 2023, section 12.6.3).
 //

@@ -7,7 +7,7 @@
 
 namespace trace {
 
-/// The numbers of a sample: changed a little. All is thrown anew. The others change a path place by place.
+/// The numbers of a sample: changed a little. All is replaced. The others change a path place by place.
 enum class MoveKind { nearby, anywhere, bidirectional, lens, caustic, multiChain };
 
 struct MoveLook {

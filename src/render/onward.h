@@ -1,5 +1,5 @@
-// Where a path goes on from a surface: into the lobe, as the mirrored ray or as a refracted one, of which one
-// is chosen by chance. For paths from the camera and from lights.
+// Where a path continues from a surface: into the lobe, as the mirrored ray or as a refracted one, of which
+// one is chosen at random. For paths from the camera and from lights.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace trace {
 Color scattered(const Interaction& at, const Vec3& toEye, const Vec3& toLight, bool lit = false);
 
 /// The scattering for a path that came from the light, whose places are spread over the surface's true area,
-/// for what goes on from there over solid angle (Veach 1997, section 5.3).
+/// for what continues from there over solid angle (Veach 1997, section 5.3).
 Color scatteredOn(const Interaction& at, const Vec3& toEye, const Vec3& toLight, bool lit = false);
 
 /// Around the normal on the side of `toEye` where the surface is a sheet, which is the same from both sides:
@@ -29,7 +29,7 @@ class Onward {
   /// worth, which is one more to choose; the surface's own lobe is then what is left of its light.
   Onward(const Interaction& at, Real spectrum, std::optional<Real> intoBody = {});
 
-  /// A ray that goes on.
+  /// A ray that continues.
   struct Ray {
     RayKind kind;  ///< bounce, reflection or refraction
     Vec3 direction;
@@ -38,12 +38,12 @@ class Onward {
     Real ratio = 1;    ///< ratio of the indices before and behind
     Interfaces there;
   };
-  /// Chooses where a path from the camera goes on, or one `fromLight`, which carries light itself; `lit`:
+  /// Chooses where a path from the camera continues, or one `fromLight`, which carries light itself; `lit`:
   /// light that Whitted's equation knows.
   std::optional<Ray> choose(Real choice, Sampler lobe, bool fromLight = false, bool lit = false) const;
   /// The mirrored or the refracted ray, if there is one, chosen with that probability.
   std::optional<Ray> only(RayKind kind, bool fromLight = false, Real likely = 1) const;
-  /// How likely choose() goes on by such a ray: bounce, reflection or refraction.
+  /// How likely choose() continues by such a ray: bounce, reflection or refraction.
   Real chance(RayKind kind) const {
     return kind == RayKind::bounce ? toLobe_ : kind == RayKind::reflection ? toMirror_ : toBehind_;
   }

@@ -1,7 +1,8 @@
 // The environment: the colour of rays that hit nothing. What lies nearer hides what lies behind it:
 //
-//   camera rays: the backdrop, the environment, the panorama, the sky by day, the gradient, the bands
-//   other rays:               the environment, the panorama, the sky by day, the gradient; or nothing: black
+//   camera rays: the backdrop, the environment, the panorama, the daylight sky, the gradient, the bands
+//   other rays:               the environment, the panorama, the daylight sky, the gradient; or nothing:
+//   black
 //
 // The panorama is the six pictures of the scene's background; where there is none, and through their
 // transparency, what lies behind is seen.

@@ -30,7 +30,7 @@ class PathPlace {
   Real cosine(const Vec3& direction) const {
     return at_ ? std::abs(dot(direction, at_->hit.surface.normal)) : 1;
   }
-  /// Per solid angle, of going on in a direction after one has come from the other.
+  /// Per solid angle, of continuing in a direction after one has come from the other.
   Real density(const Vec3& from, const Vec3& to) const {
     return at_ ? trace::density(at_->bsdf(), frameToward(*at_, from), from, to)
                : phase(forward_, -dot(from, to));

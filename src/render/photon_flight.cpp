@@ -11,7 +11,7 @@ namespace {
 
 /// The light that a photon carries on in a direction, times the cosine, as an eye there would see it: not
 /// every model is the same both ways. Where the shading normal is far from the true one, that counts at most
-/// so often (Veach 1997, section 5.3.2).
+/// that often (Veach 1997, section 5.3.2).
 Color scatteredPhoton(const Interaction& at, const Vec3& direction) {
   constexpr Real kMost = 4;
   const Vec3& normal = at.hit.surface.normal;
@@ -49,13 +49,13 @@ bool PhotonEmitter::rests(const Flight& f) const {
   return kept_ == Kept::all || (kept_ == Kept::scattered ? f.scattered : f.bounces > 0 && f.gathered);
 }
 
-/// Whether a path that media scatter so often counts. Seen from the eye, the last scattering that
+/// Whether a path that media scatter that often counts. Seen from the eye, the last scattering that
 /// `medium-depth` allows is lit by lights alone, not by surfaces; so light must have met a medium first.
 bool PhotonEmitter::counts(int scatterings, bool mediumFirst) const {
   return scatterings < settings_.mediumDepth || (scatterings == settings_.mediumDepth && mediumFirst);
 }
 
-/// The photon, whose power that is already, goes on from there as a medium scatters it.
+/// The photon, whose power that is already, continues from there as a medium scatters it.
 void PhotonEmitter::scatter(Flight& f, const Vec3& point, Real forward) {
   f.mediumFirst = f.mediumFirst || f.untouched();
   f.ray = {point, samplePhase(f.ray.direction, forward, {chance(), chance()}).direction};
@@ -93,7 +93,7 @@ void PhotonEmitter::lightFog(const Flight& parallel, LandedPhotons& landed) {
   fly(own, landed);
 }
 
-/// The way up to the next surface: what passes, and what media keep of it. True if it was scattered there.
+/// The way up to the next surface: the transmittance, and what media absorb. True if it was scattered there.
 bool PhotonEmitter::crossMedia(Flight& f, LandedPhotons& landed) {
   if (f.parallel && !onlyCaustics_ && !fog_.none()) lightFog(f, landed);
   const Real far = f.hit ? f.hit->t : kInfinity;
@@ -130,7 +130,7 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
     if (!f.hit) return;
     f.power = arriving(f, f.hit->surface.point, f.hit->t) * f.inside.passed(f.hit->t);
     if (isBlack(f.power)) return;
-    // A pane that the light does not light lets it pass.
+    // A pane that the light does not light has no effect.
     const bool linked = !f.straight || !f.light || world_.lights(*f.light, f.hit->object);
     Interaction at(tracer_, f.ray, *f.hit, nullptr, f.inside, chance());
     const bool scattersIt = scatters(at.bsdf());
@@ -154,7 +154,7 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
   }
 }
 
-/// One ray goes on from the surface, or none: what it brings stays about the same. False if it ends.
+/// One ray continues from the surface, or none: what it brings stays about the same. False if it ends.
 bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt,
                          const std::optional<SubsurfaceBsdf>& body) {
   const auto shares = at.shares();

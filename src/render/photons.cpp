@@ -96,7 +96,7 @@ std::size_t nearestOfPass(int pass) {
   return std::max(kFewest, static_cast<std::size_t>(count + 0.5));
 }
 
-/// From how far away photons count if nothing is said: by the scene's size, but of a glass on a wide floor by
+/// From how far away photons count by default: by the scene's size, but of a glass on a wide floor by
 /// that of the glass.
 Real causticReach(const World& world, const std::vector<PhotonTarget>& targets) {
   constexpr Real kOfScene = 0.02, kOfTargets = 0.1;

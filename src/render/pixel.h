@@ -178,7 +178,7 @@ class PixelTracer {
   SampleRules rules_;
 };
 
-/// Adds the samples of the wave; what counts each is told to see(color, weight).
+/// Adds the samples of the wave; calls see(color, weight) for each.
 template <class See>
 void addWave(PixelTracer& tracer, int x, int y, const Wave& wave, PixelSum& sum, const See& see) {
   for (int k = wave.first; k < wave.end; ++k) {

@@ -9,7 +9,7 @@
 
 namespace trace {
 
-/// bounce: scattered in a direction chosen by chance; lamp: to a place of an object that gives off light;
+/// bounce: scattered in a direction chosen at random; lamp: to a place of an object that emits light;
 /// light: of a path that starts where light comes from.
 enum class RayKind { camera, reflection, refraction, bounce, lamp, light, shadow };
 inline constexpr std::size_t kRayKinds = 7;

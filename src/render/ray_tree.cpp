@@ -26,7 +26,7 @@ std::string shortText(Real x, int digits) {
 
 std::string kindName(RayKind kind) { return std::string(name(kind)); }
 
-/// The rays that it was sent on as: "reflection and 5 refractions".
+/// Its secondary rays: "reflection and 5 refractions".
 std::string sentOn(const RayNode& node) {
   std::vector<std::pair<std::string_view, int>> kinds;
   for (const Term& term : node.terms) {

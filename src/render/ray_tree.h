@@ -70,7 +70,7 @@ struct BelowThreshold {
   Real contribution;  ///< the largest change of the sample that the unsent ray could make
   Real threshold;
 };
-/// Russian roulette ended the path: it would have gone on with this chance, and counted so much the more.
+/// Russian roulette ended the path: it would have resumed this chance, and counted so much the more.
 struct Roulette {
   static constexpr std::string_view kName = "roulette";
   RayKind unsent;
@@ -83,7 +83,7 @@ struct TotalInternalReflection {
 /// A shadow ray met something that lets no light through.
 struct Blocked {
   static constexpr std::string_view kName = "blocked";
-  std::uint32_t object;  ///< the nearest that lets nothing through
+  std::uint32_t object;  ///< the nearest that transmits nothing
   std::uint64_t part;
   Real t;
   std::vector<MaterialShare> materials;  ///< there
@@ -119,7 +119,7 @@ struct DarkTerm {
   std::uint32_t light = 0;  ///< index into Scene::lights
 };
 
-/// How a direction was chosen by chance, and what the choice counts among the ways to come upon the same
+/// How a direction was chosen at random, and what the choice counts among the ways to come upon the same
 /// light.
 struct ChanceTerm {
   Real density = 0;  ///< density of the direction, per solid angle, with all choices that led to it; 0: there
@@ -136,7 +136,7 @@ struct PhotonTerm {
   std::vector<Photon> photons{};  ///< that they are, where a tree takes them
 };
 
-/// Light that was worked out at some places before, and blended here.
+/// Light that was computed at some places before, and blended here.
 struct CacheTerm {
   std::size_t records = 0;  ///< so many of them
 };
@@ -160,7 +160,7 @@ struct MediumTerm {
 /// Where light that comes out of a body went in.
 struct BodyTerm {
   Real distance = 0;  ///< from the place where it comes out
-  int steps = 0;      ///< so often it was scattered; 0 where a profile tells how much arrives
+  int steps = 0;      ///< number of scattering events; 0 for a profile
 };
 
 /// factor * value, a summand of a ray's radiance.
@@ -188,7 +188,7 @@ struct Term {
       "emissive",   "ambient",    "light", "caustic", "photons",    "reflection",
       "refraction", "bounce",     "lamp",  "joined",  "background", "fog",
       "medium",     "subsurface", "hole",  "outline", "irradiance"};
-  /// The ray of the term is one on which the path goes on, not one that asks for light.
+  /// The ray of the term is one on which the path continues, not a shadow ray.
   bool goesOn() const {
     return ray >= 0 && (kind == Kind::reflection || kind == Kind::refraction || kind == Kind::bounce ||
                         kind == Kind::subsurface || kind == Kind::hole ||
@@ -208,8 +208,8 @@ struct Term {
   std::optional<std::uint32_t> scattered{};  ///< by air or a medium: the light's index into Scene::lights
 };
 
-/// A surface at which nothing changes for light: the ray went on. There is a hole, or it is so by the rule of
-/// nested glass.
+/// A surface at which nothing changes for light: the ray continued. There is a hole, or it is so by the rule
+/// of nested glass.
 struct Ignored {
   std::uint32_t object = 0;
   std::uint64_t part = 0;
@@ -235,7 +235,7 @@ struct RayNode {
   Ray ray;
   Real tMost = kInfinity;                ///< for a shadow ray, the distance of the light
   std::optional<Hit> hit;                ///< not of shadow rays
-  std::optional<Outside::View> outside;  ///< what it sees where it meets nothing
+  std::optional<Outside::View> outside;  ///< what it sees where it hits nothing
   std::vector<MaterialShare> materials;  ///< materials of the hit
   std::optional<Bsdf> bsdf;              ///< there
   Indices indices;                       ///< there
@@ -278,7 +278,7 @@ void weigh(RayTree& tree, Real cameraWeight);
 
 /// The term of the ray's parent that its radiance went into; null for the camera ray.
 const Term* termOf(const RayTree& tree, int node);
-/// The light that a ray asks, as an index into Scene::lights; nothing for other rays.
+/// The light that a ray samples, as an index into Scene::lights; nothing for other rays.
 std::optional<std::uint32_t> lightOf(const RayTree& tree, int node);
 
 /// "wall", or "sphere (scene.ray:12)" for an object without a name.

@@ -64,7 +64,7 @@ std::optional<Entrance> byProfile(const Interaction& at, const std::array<Profil
   const Real r = profiles[channel].distance(disk.x), phi = 2 * kPi * disk.y;
   const Vec3 middle = here.point + (across * std::cos(phi) + aside * std::sin(phi)) * r;
 
-  // The line from one side of the body to the other; of one without end, as far as light gets.
+  // The line from one side of the body to the other; of an infinite one, as far as light gets.
   const Box3& box = world.boundsOf(at.hit.object);
   Real half = 0;
   if (box.empty()) {

@@ -102,7 +102,7 @@ std::optional<Found> Tracer::lookAt(const Ray& ray, RayKind kind, std::uint32_t 
 }
 
 /// From the nearest surface on to the first that counts. The line of the ray is asked once for all crossings,
-/// so that what lies behind is met where it is met without the surfaces before it.
+/// so that what lies behind is hit where it is hit without the surfaces before it.
 std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside,
                                   Real chance) {
   if (!ignored(ray, found, inside, chance)) return found;

@@ -107,7 +107,7 @@ class Tracer {
     return world_.filling(hit, terms, settings_);
   }
 
-  /// Does the camera ray meet something nearer than the camera sees?
+  /// Does the camera ray hit something nearer than the camera sees?
   bool tooNear(const Ray& ray) const;
 
   /// The query of a recorded ray once more, for someone who watches it.
@@ -169,7 +169,7 @@ class Tracer {
            kind == IntegratorKind::bdpt;
   }
   /// Photons, or paths from lights, bring the light that the glass bends. Whitted's bring it to surfaces
-  /// only. Of rough glass, rays that are followed into its lobe ask lights where they meet it: a shadow ray
+  /// only. Of rough glass, rays that are followed into its lobe sample lights where they hit it: a shadow ray
   /// through it would count them twice.
   bool gathers(const Bsdf& bsdf) const {
     if (joins_ || (followsLobes() && isGlossy(bsdf))) return true;

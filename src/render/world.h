@@ -166,7 +166,7 @@ class World {
   bool convex(std::uint32_t object) const { return objects_[object].convex; }
   /// It encloses space; a mesh does if it is closed.
   bool solid(std::uint32_t object) const { return objects_[object].solid; }
-  /// Bodies of glass inside and across one another are told apart.
+  /// Glass objects inside and across one another are told apart.
   bool nestedGlass() const { return nestedGlass_; }
   /// The interior of the object at a point on it that looks like `terms`, by the conventions of a render.
   Filling filling(const Hit& hit, const WhittedTerms& terms, const Settings& settings) const;
@@ -185,7 +185,7 @@ class World {
   /// Light goes into some body and comes out elsewhere (shading/materials/subsurface.h).
   bool hasSubsurface() const { return hasSubsurface_; }
 
-  /// No part of the object lets light through.
+  /// No part of the object transmits light.
   bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
 
   /// In world space; empty of one that is left out.
@@ -330,7 +330,7 @@ class World {
   std::vector<Instance> objects_;
   std::shared_ptr<const Forms> forms_;  ///< forms of each object
   std::shared_ptr<const Bvh> bvh_;
-  std::vector<std::uint32_t> always_;  ///< objects that every ray may meet: those without end, which no
+  std::vector<std::uint32_t> always_;  ///< objects that every ray may meet: those infinite, which no
                                        ///< hierarchy can hold; where there is no tree, all
   static const Bsdf& clear();          ///< what is seen through as if it were not there
 

@@ -142,7 +142,7 @@ TracedShape prepared(const Object& object, const MeshTrees& made) {
   }
 }
 
-/// The first material that is the same but for its name and priority.
+/// The first material that is the same except for its name and priority.
 std::vector<std::uint32_t> kindsOf(const std::vector<Material>& materials, const Rules& rules) {
   std::map<std::tuple<Real, Real, Real, Real, Real>, std::vector<std::uint32_t>> firsts;  // by some numbers
   const auto nameless = [](Material material) {

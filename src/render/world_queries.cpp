@@ -21,7 +21,7 @@ void World::collectForms() {
 
 namespace {
 
-/// The nodes of a mesh are told from those of the scene where somebody looks at them.
+/// The nodes of a mesh are distinguished from those of the scene for observers.
 void enter(NodeCount&, std::uint32_t) {}
 void enter(NodeWatch& nodes, std::uint32_t object) { nodes.owner = object; }
 

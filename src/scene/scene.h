@@ -55,7 +55,7 @@ struct UnusedMaterial {
   bool operator==(const UnusedMaterial&) const = default;
 };
 
-/// Copied and compared in one .cpp: it is dear to compile.
+/// Copied and compared in one .cpp: it is slow to compile.
 struct Scene {
   Scene();
   Scene(const Scene&);

@@ -1,6 +1,6 @@
 // The background of a scene, as its file gives it: bands of colour across the picture, which only
-// camera rays see, or what is all around, which every ray sees: a gradient, a sky by day, and pictures on the
-// six faces of a cube before them.
+// camera rays see, or what is all around, which every ray sees: a gradient, a daylight sky, and pictures on
+// the six faces of a cube before them.
 #pragma once
 
 #include <algorithm>
@@ -27,12 +27,12 @@ struct Background {
   std::vector<Real> limits;
   std::vector<Color> gradient{};   ///< all around, from straight down to straight up; none: no gradient
   std::vector<Real> elevations{};  ///< degrees above the horizon, ascending; none: evenly spaced
-  Real turbidity = 0;              ///< turbidity of a sky by day (shading/daylight.h); 0: none
+  Real turbidity = 0;              ///< turbidity of a daylight sky (shading/daylight.h); 0: none
   Vec3 sun{1, 1, 1};               ///< the direction to it
   Real skyBrightness = 0.05;       ///< a colour of 1 for each 1 / skyBrightness kcd/m^2
-  Color ground{0.2, 0.2, 0.2};     ///< below the horizon of a sky by day
+  Color ground{0.2, 0.2, 0.2};     ///< below the horizon of a daylight sky
   /// On the faces of a cube around everything, as seen from inside: each covers its face from edge to edge,
-  /// upright for who looks at it from -z on. The top follows above the front, the bottom below it. What lies
+  /// upright as seen from -z on. The top follows above the front, the bottom below it. What lies
   /// behind is seen where there is none, and through its transparency (VRML97, section 6.5).
   Pixels front{}, back{}, left{}, right{}, top{}, bottom{};
 

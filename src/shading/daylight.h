@@ -1,4 +1,4 @@
-// The light of a clear sky by day, of a sun and a turbidity: A. J. Preetham, P. Shirley and B. Smits, A
+// The light of a clear daylight sky, of a sun and a turbidity: A. J. Preetham, P. Shirley and B. Smits, A
 // Practical Analytic Model for Daylight, SIGGRAPH 1999, appendix A.2. Up is +y.
 #pragma once
 

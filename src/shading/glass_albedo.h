@@ -13,7 +13,7 @@ Real glassAlbedo(Distribution kind, Real cosine, Real width, Real eta);
 /// The mean over all directions, weighed by the cosine.
 Real meanGlassAlbedo(Distribution kind, Real width, Real eta);
 
-/// The light that meets several facets of glass: it goes on to both sides, whatever side it came from.
+/// The light that meets several facets of glass: it continues to both sides, whatever side it came from.
 class GlassLoss {
  public:
   GlassLoss() = default;

@@ -28,7 +28,7 @@ struct Interior {
   }
   bool operator==(const Interior&) const = default;
 
-  /// Beer's law: what passes of a unit of length.
+  /// Beer's law: the transmittance of a unit of length.
   Color passesPerUnit() const {
     return attenuationColor == Color(1) ? Color(1) : pow(attenuationColor, 1 / attenuationDistance);
   }

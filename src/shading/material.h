@@ -34,7 +34,7 @@
 
 namespace trace {
 
-/// Copied and compared in one .cpp: where a variant of so many structs is copied, it is dear to compile.
+/// Copied and compared in one .cpp: where a variant of so many structs is copied, it is slow to compile.
 struct MaterialModel : std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance,
                                     Ward, SchlickModel, AshikhminShirley, Velvet, Hair, Marschner, RoughGlass,
                                     ThinGlass, Cel, Gooch, Hatching, Subsurface> {
@@ -55,7 +55,7 @@ std::vector<std::string_view> modelKeywords();
 std::string_view keywordOf(const MaterialModel& model);
 
 /// Which sides of a surface reflect light. Of `front` the back is dark; `both` turns the normal to the
-/// viewer's side first. It does not change what light passes into: there the two sides differ.
+/// viewer's side first. It does not change the transmitted side: there the two sides differ.
 enum class ShadedSides { front, both };
 constexpr std::array<std::string_view, 2> names(ShadedSides) { return {"front", "both"}; }
 
@@ -69,7 +69,7 @@ struct Material {
   Real opacity = 1;                      ///< share of the surface that is there
   ShadedSides sides = ShadedSides::front;
   Real displacement = 0;       ///< moves the points of meshes (scene/displacement.h)
-  int displacementLevels = 0;  ///< so often each triangle is cut in four before
+  int displacementLevels = 0;  ///< / number of times each triangle is cut in four before
   // The medium inside (shading/medium.h).
   Real mediumDensity = 0;
   Color mediumScatters{1}, mediumAbsorbs{}, mediumGlows{};
@@ -102,7 +102,7 @@ struct Material {
   bool operator==(const Material&) const = default;
 };
 
-/// Keywords of colours that models have in common: what a surface gives off, its share of the ambient light,
+/// Keywords of colours that models have in common: what a surface emits, its share of the ambient light,
 /// and what it looks like, which is `color` where it is no diffuse reflectance.
 inline constexpr std::string_view kEmissive = "emissive", kAmbient = "ambient", kDiffuse = "diffuse",
                                   kColor = "color";

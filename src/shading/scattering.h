@@ -49,7 +49,7 @@ struct WhittedTerms {
   Real index = 1;                  ///< index of refraction
   Real shadow = 1;                 ///< share of a light that a shadow takes away
   Real priority = 0;               ///< what of overlapping bodies fills a place (shading/interior.h)
-  Color attenuation{1};            ///< what passes of a unit of length inside
+  Color attenuation{1};            ///< the transmittance of a unit of length inside
   Dispersion dispersion;           ///< dispersion of the index
   Passage passage = Passage::asSaid;
   Real sharp = 1;           ///< the part of a lobe for which one ray stands, where passage is byFresnel
@@ -94,7 +94,7 @@ Struct mixFields(const Struct& a, const Struct& b, const Struct& c, const Real (
   return m;
 }
 
-// --- directions chosen by chance, in the space of a Basis -------------------------------------------------
+// --- directions chosen at random, in the space of a Basis -------------------------------------------------
 
 inline Vec3 sphericalDirection(Real cosTheta, Real phi) {
   const Real sine = std::sqrt(max(0, 1 - cosTheta * cosTheta));

@@ -82,7 +82,8 @@ class Texture {
   const TextureNode& operator*() const;
   const TextureNode* operator->() const { return &**this; }
   Color at(const TexturePlace& place) const;
-  /// How many textures one place asks, this one and those in it; one that stands in two places counts twice.
+  /// The number of textures that one place evaluates, this one and those in it; one that stands in two places
+  /// counts twice.
   double size() const;
 
   /// Two that share their data are equal at once.

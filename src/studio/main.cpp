@@ -22,7 +22,7 @@ namespace trace::studio {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 800;   // width and height of the window, at first, on a plain monitor
-constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at what goes on in the background
+constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at what continues in the background
 
 const char* variable(const char* name) { return std::getenv(name); }
 

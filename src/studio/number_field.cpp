@@ -92,7 +92,7 @@ std::optional<double> numberIn(const std::string& typed, const NumberLook& look,
 
 /// A slider that takes text, in place of Dear ImGui's own field.
 Settled<std::string> typeNumber(const char* label, ImGuiID id) {
-  constexpr int kMostCharacters = 32;  // as Dear ImGui's own field, which begins what goes on here
+  constexpr int kMostCharacters = 32;  // as Dear ImGui's own field, which begins what continues here
   static ImGuiID owner = 0;
   static char text[kMostCharacters];
   const char* before = ImGui::GetCurrentContext()->InputTextState.InitialTextA.Data;

@@ -44,7 +44,7 @@ struct PictureView {
   std::string planeLegend;  ///< what its colours mean
   FilmPlane planeShown = FilmPlane::picture;
   Convergence convergence;    ///< convergence of the shown picture
-  std::vector<float> noise;   ///< levels, one for each look at the render that goes on
+  std::vector<float> noise;   ///< levels, one for each look at the render that continues
   std::uint64_t noiseOf = 0;  ///< the render's number
 
   /// Takes the pixel as if it were clicked, and brings it into view.

@@ -102,7 +102,7 @@ struct Studio {
 /// The state of the scene before is dropped when another is opened: the chosen pixel, the selection.
 void followScene(Studio& studio);
 
-/// Esc leaves the keyboard where it was, and Tab goes on from there. Called before anything is drawn.
+/// Esc leaves the keyboard where it was, and Tab continues from there. Called before anything is drawn.
 void keepKeyboard(Studio& studio);
 /// Called when all is drawn.
 void noteKeyboard(Studio& studio);

@@ -17,7 +17,7 @@
 
 namespace trace::composer {
 
-inline constexpr Real kGlass = 1.5;           ///< the index of what lets light through
+inline constexpr Real kGlass = 1.5;           ///< the index of what transmits light
 inline constexpr Real kShininessScale = 128;  ///< from shininess to the exponent
 
 struct View {

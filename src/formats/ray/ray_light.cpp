@@ -86,7 +86,7 @@ bool isRequired(std::string_view field, bool isOfKind) {
   return field == "position" || field == "direction" || (field == "color" && !isOfKind);
 }
 
-/// The watts of a lamp that shines to all sides with a colour of 1: a matt white surface at the distance 1
+/// The watts of a light that shines to all sides with a colour of 1: a matt white surface at the distance 1
 /// shows intensity / pi, and the intensity is power / (4 pi).
 constexpr Real kPowerOfOne = 4 * kPi * kPi;
 

@@ -25,7 +25,7 @@ struct Binding {
   std::uint32_t node = 0;  ///< the let, define or loop
   /// The value of a parameter or loop; of a let without parameters, once it was asked for.
   std::optional<Value> value{};
-  bool isActive = false;  ///< its value is being worked out, and does not see itself
+  bool isActive = false;  ///< its value is being computed, and does not see itself
 };
 
 /// The names of one block, of one call or of one round of a loop.
@@ -68,7 +68,7 @@ class Names {
 
   // --- names ---
 
-  /// All names of a block, before anything of it is worked out.
+  /// All names of a block, before anything of it is computed.
   void declare(std::uint32_t block, Scope& scope);
   /// Words of statements and constants are no names. Words that begin an object, such as `rows`, name values
   /// only: behind them, brackets make the object.

@@ -24,7 +24,7 @@ struct Lamp {
   Vec3 position;
   Color ambient, diffuse, specular;
   Vec3 attenuation;  ///< constant, linear, quadratic; all 0: the light does not fade
-  Real radius = 0;   ///< radius of the ball that shines
+  Real radius = 0;   ///< radius of the luminous ball
 };
 void addLamp(Scene& scene, const Lamp& lamp, const Place& place);
 

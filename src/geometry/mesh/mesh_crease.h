@@ -34,7 +34,7 @@ struct PointCreases {
       along += other;
     }
   }
-  /// Where the point goes, from where it goes on a smooth surface: with two along their curve, with more it
+  /// Where the point goes, from where it continues a smooth surface: with two along their curve, with more it
   /// is a corner and stays; one alone ends there.
   Vec3 moved(const Vec3& point, const Vec3& smooth) const {
     if (count < 2) return smooth;

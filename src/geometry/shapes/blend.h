@@ -38,7 +38,7 @@ struct Blend {
   }
   bool operator==(const Blend&) const = default;
 
-  /// Throws Error for an object whose distance is not known, and for a blend without end.
+  /// Throws Error for an object whose distance is not known, and for a blend infinite.
   std::shared_ptr<const TracedBlend> prepared() const;
 };
 

@@ -1,4 +1,4 @@
-// The plane z = 0 without end. It bounds the half of space below it, so that water with a plane for its
+// The plane z = 0 infinite. It bounds the half of space below it, so that water with a plane for its
 // surface has its index of refraction underneath; the normal is +z from either side.
 //
 // Its bounds are infinite: the World tests it apart from the hierarchy. Where a ray runs into the half space

@@ -56,7 +56,7 @@ class TracedHeights {
   Real planeX(int column) const { return -1 + 2 * (static_cast<Real>(column) / (grid_.columns - 1)); }
   Real planeY(int row) const { return -1 + 2 * (static_cast<Real>(row) / (grid_.rows - 1)); }
   Patch patch(int column, int row) const;
-  /// Also of the columns and rows just outside of the grid, as the line through the last two goes on.
+  /// Also of the columns and rows just outside of the grid, as the line through the last two continues.
   Real heightBeyond(int column, int row) const;
   Reach reachOf(int column, int row) const;
   int cellOf(Real place, int cells) const;

@@ -1,5 +1,5 @@
 // Signed distances from solids, along a line: what blends are made of. Exact, or of faces and edges that go
-// on for ever, where that makes no difference to how a fillet lies; negative inside.
+// on without limit, where that makes no difference to how a fillet lies; negative inside.
 #pragma once
 
 #include "math/along.h"

@@ -8,7 +8,7 @@
 
 namespace trace {
 
-/// u and v of a place on a surface, as a rule from 0 to 1. Angles are worked out when somebody asks, as few
+/// u and v of a place on a surface, as a rule from 0 to 1. Angles are computed when somebody asks, as few
 /// do and they take longer than all else about a place.
 class SurfaceUv {
  public:

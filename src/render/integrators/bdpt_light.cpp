@@ -13,7 +13,7 @@ struct Bidirectional::Flight {
   std::optional<Hit> hit;
   Sampler numbers;
   bool parallel = false;  ///< it comes straight from beyond all distances
-  bool fromSky = false;   ///< ... from what is around the scene
+  bool fromSky = false;   ///< ... from the environment
   /// Nothing has turned it. The next vertex is `way` farther from the light, which arrives there by its own
   /// law, and `through` is what remains of it.
   bool straight = true;

@@ -22,7 +22,7 @@ struct Bidirectional::Partial {
     vcm *= power(distance2) * c;
     vc *= c;
   }
-  /// It goes on: in a direction of a lobe with that density, which the other way round is `reverse`; at
+  /// It continues: in a direction of a lobe with that density, which the other way round is `reverse`; at
   /// `cosine` to the surface.
   void leave(Real density, Real reverse, Real cosine) {
     vc = power(cosine / density) * (vc * power(reverse) + vcm);

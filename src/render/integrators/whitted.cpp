@@ -28,8 +28,8 @@ struct Whitted::Path {
 
 namespace {
 
-/// Branches of a place's numbers: its lights by their number, and the rays that go on; of a fan the refracted
-/// rays have the numbers from kRefracted on.
+/// Branches of a place's numbers: its lights by their number, and the rays that continue; of a fan the
+/// refracted rays have the numbers from kRefracted on.
 constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
 /// The numbers by which a direction into a lobe is chosen, those of the fog, and those of the lamps.
 constexpr std::uint32_t kLobe = 0x7fffffffu, kFog = 0x7ffffffdu, kLamps = 0x7ffffffau;

@@ -3,7 +3,7 @@
 // glTF 2.0, appendix B, KHR_materials_clearcoat, KHR_materials_sheen, KHR_materials_anisotropy,
 // KHR_materials_iridescence, KHR_materials_specular). Where specular_strength is below 1, the rest of the
 // base has no layer that mirrors. Where it is transparent it is a thin sheet: what its facets do not mirror
-// goes on as a lobe that lies as the mirrored one does, on the other side (KHR_materials_transmission).
+// continues as a lobe that lies as the mirrored one does, on the other side (KHR_materials_transmission).
 // Variant: GGX; the base is coupled to what lies on it as in shading/coating.h, and each layer takes from
 // those below what it gives back itself, on the way in and out. Reciprocal. Energy: gives back at most what
 // arrives; with grain within a few percent.
@@ -100,7 +100,7 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
 
   bool exactFresnel = false;
   Coating plastic, clear;
-  Real passing = 0;  ///< share of light that goes on through the sheet
+  Real passing = 0;  ///< share of light that continues through the sheet
   MicrofacetLobe metal;
   Sheen fibres;
 
