@@ -169,7 +169,7 @@ std::optional<Cure> strongerLight(const Scene& scene, const Settings& settings, 
     best = Cure{source.place,
                 far ? "; this light fades with the square of the distance (quadratic_attenuation_coeff = 1)"
                     : "; this light is too weak",
-                field + " in this light brings what is seen to a mean level of about 90" +
+                field + " in this light brings the visible objects to a mean level of about 90" +
                     (far ? "; constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0; keeps it from "
                            "fading"
                          : "")};
@@ -197,7 +197,7 @@ std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, 
   const bool none = scene.lights.empty();
   const bool ray = scene.format == "ray";
   return Cure{
-      Place{.file = scene.file}, none ? "; the scene has no light" : "; no light reaches what is seen",
+      Place{.file = scene.file}, none ? "; the scene has no light" : "; no light reaches the visible objects",
       ray ? "point_light { position = " + rounded(light.position) + "; color = " + rounded(Color(*factor)) +
                 "; constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0; } shines from the eye"
           : "add a light that shines where the camera looks"};
@@ -214,7 +214,7 @@ std::optional<Cure> lookAround(const Scene& scene) {
   return Cure{Place{.file = scene.file}, "; no object is in the picture",
               scene.format == "ray"
                   ? "look_at = " + rounded(all.center()) +
-                        "; in the camera, in place of viewdir, turns it to the objects"
+                        "; in the camera, in place of viewdir, points it at the objects"
                   : "turn the camera to " + rounded(all.center()) + ", the middle of the objects"};
 }
 

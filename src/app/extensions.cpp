@@ -144,7 +144,7 @@ constexpr std::array kExtensions{
     Extension{"cel", "flat steps of light with hard edges", kModels, kPhong, "", BALL(458, 460, 658, 660)},
     Extension{"gooch", "warm towards the light, cool away from it", kModels, kPhong, "",
               BALL(658, 460, 858, 660)},
-    Extension{"marschner", "strands that mirror light and let it through", "strands.ray", kPhong, "", ""},
+    Extension{"marschner", "strands that reflect and transmit light", "strands.ray", kPhong, "", ""},
     Extension{"rough_glass", "glass whose surface blurs what is behind it", "frosted-glass.ray", kPhong, "",
               ""},
     Extension{"subsurface", "light that spreads in marble, milk, skin and jade", "subsurface.ray", kPhong, "",

@@ -29,7 +29,7 @@ std::string sourceOf(const Term& term, const RayNode& node, const RayTree& tree,
       return (asked.hit ? objectName(scene, asked.hit->object) : "the sky") + " on " + here;
     }
     case TermKind::joined: return "a path from a light that was joined with one on " + here;
-    case TermKind::background: return node.outside ? "what is around the scene" : "the background";
+    case TermKind::background: return node.outside ? "the environment" : "the background";
     case TermKind::fog: return "fog";
     case TermKind::medium: return "a medium";
     case TermKind::hole: return "holes of " + here;

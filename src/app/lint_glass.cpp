@@ -86,12 +86,11 @@ void glassInGlass(const LintScene& s, Findings& findings) {
       const auto pair = nested(s, {through - direction * (2 * far), direction}, 4 * far, bodies);
       if (!pair) continue;
       const auto [inner, outer] = *pair;
-      return warn(
-          findings, "glass-in-glass", placeOf(s, inner),
-          quoted(s, inner) + " is inside " + quoted(s, outer) +
-              " or across it, and each body of glass is taken to be in air: light bends wrongly where "
-              "they meet",
-          "give the materials a `priority`, or use --nested-glass on");
+      return warn(findings, "glass-in-glass", placeOf(s, inner),
+                  quoted(s, inner) + " is inside " + quoted(s, outer) +
+                      " or across it, and each glass object is assumed to be in air: light is refracted "
+                      "wrongly where they meet",
+                  "give the materials a `priority`, or use --nested-glass on");
     }
   }
 }

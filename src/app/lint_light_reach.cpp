@@ -72,7 +72,7 @@ class LightSearch {
   }
 
   std::vector<SilentLight> find() {
-    Work work("asking the lights", kSeen.height);
+    Work work("sampling the lights", kSeen.height);
     for (int y = 0; y < kSeen.height && isToAsk(); ++y) {
       work.reached(y);
       for (int x = 0; x < kSeen.width && isToAsk(); ++x)
@@ -269,14 +269,14 @@ void lightReachesNothing(const LintScene& s, Findings& findings) {
     const int blocked = most == light.blockedBy.end() ? 0 : most->second;
     const bool isBlocked = blocked > 0 && blocked >= light.elsewhere && blocked >= light.behind;
     warn(findings, "light-reaches-nothing", source.place,
-         "this light gives nothing to what is seen: " + std::to_string(light.asked) +
-             " places were asked, and of most " +
+         "this light contributes nothing to the picture: " + std::to_string(light.asked) +
+             " points were tested, and for most " +
              (isBlocked                         ? quoted(s, most->first) + " is in the way"
               : light.elsewhere >= light.behind ? "it shines elsewhere"
                                                 : "it is behind the surface"),
          std::string(isBlocked ? "move the light, or what is in its way"
-                               : "move the light to the side that is seen, or turn it") +
-             "; or take it out: it only takes time");
+                               : "move the light to the visible side, or turn it") +
+             "; or remove it to save time");
   }
 }
 

@@ -14,7 +14,8 @@ int mostRaysOf(const Settings& settings) {
 /// Parts of the picture to which no ray of the pixel contributes; the film knows the light image of bdpt.
 std::string noteOn(const Settings& settings) {
   if (settings.integrator == IntegratorKind::mlt)
-    return "Chains made this picture, in no order of pixels: these are paths to whose mean they tend.";
+    return "Markov chains made this picture, in no order of pixels: these paths show the mean that they "
+           "converge to.";
   return settings.denoise ? "Denoise makes the pixel a mean of pixels that are alike." : "";
 }
 

@@ -293,7 +293,7 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
     }
   };
   for (const RayLook& row : kRayLooks) entry(std::string(row.help), row.color, false);
-  entry("dashed: goes on without end", kInk, true);
+  entry("dashed: leaves the scene", kInk, true);
   entry("short: the surface's normal", kInk, false);
   return drawing;
 }

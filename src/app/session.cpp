@@ -185,7 +185,7 @@ void Session::buildMoments() {
   if (settings_.shutter > 0 && !sceneAt_)
     messages_.warn(Place{.file = scene_.file},
                    "nothing in the scene changes with time: --shutter blurs nothing",
-                   "docs/animation.md tells how things move");
+                   "docs/animation.md describes animation");
   if (!(settings_.shutter > 0) || !sceneAt_) return add(*world_, settings_);
   Work work("building the moments of the shutter", settings_.moments);
   const Scene* before = &scene_;

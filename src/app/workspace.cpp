@@ -311,11 +311,10 @@ void Workspace::saveSceneOver() {
   if (saving() || !(toBeRead || document.othersOnDisk())) return saveScene(document.file());
   fail({{.place = {.file = document.file()},
          .what = std::string("not saved: the file was changed by another program") +
-                 (toBeRead ? "" : ", and what it says now could not be read"),
-         .hint = toBeRead
-                     ? "it is read again now; undo brings back what was edited here, which can be saved then"
-                     : "mend it there, and it is read again; or File, Save scene as... writes another "
-                       "file, and replaces this one if you say so"}});
+                 (toBeRead ? "" : ", and its new contents could not be read"),
+         .hint = toBeRead ? "it is read again now; undo restores your edits, which can be saved then"
+                          : "mend it there, and it is read again; or File, Save scene as... writes another "
+                            "file, and replaces this one if you say so"}});
 }
 
 void Workspace::takeSaved() {
@@ -403,7 +402,7 @@ void Workspace::reloadIfChanged() {
   if (gone && !gone_)
     log_.push_back({Level::warning,
                     shown(document.file()) + " is no longer on the disk",
-                    "what was read stays; File, Save scene writes it again",
+                    "the scene stays; File, Save scene writes it again",
                     {}});
   gone_ = gone;
   if (!document.changedOnDisk()) return;

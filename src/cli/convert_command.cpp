@@ -132,9 +132,8 @@ Scene sceneToConvert(const std::string& in, const Arguments& arguments, Messages
                          messages);
   SceneAtMoment read = readSceneAtItsMoment(in, bytes, arguments.choices, messages);
   if (read.changesWithTime)
-    messages.warn(Place{.file = in},
-                  "what changes with time is written as it is at " + toText(read.time) + " s",
-                  "--time X chooses another moment");
+    messages.warn(Place{.file = in}, "an animated scene is written as it is at " + toText(read.time) + " s",
+                  "--time X chooses another time");
   return std::move(read.scene);
 }
 
@@ -146,7 +145,7 @@ std::string convert(const std::string& in, const std::string& out, const Argumen
   const SceneFormat& format = writableFormatFor(out);
   if (!conversion.picture.empty() && !conversion.revolve)
     throw Error(
-        Fault::usage, "--picture: expected --revolve, whose surface wears it",
+        Fault::usage, "--picture: expected --revolve, whose surface it is mapped to",
         "--material 'diffuse = map(\"" + conversion.picture + "\")' gives one to the objects of a scene");
   checkDistinct(in, out);
   checkWritable(out);

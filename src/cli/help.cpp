@@ -149,16 +149,14 @@ std::string conventionsText() {
 }
 
 constexpr std::string_view kExitCodes =
-    "0 done, 1 a file could not be read or written, 2 wrong usage, 3 the scene has errors, 4 stopped by the "
-    "user "
-    "(the finished part is written), 5 a limit was met (time: the finished part is written), 130 stopped at "
-    "once. ray diff: 0 equal within the limits, 1 different, 2 an error, or sizes that differ. ray grade: 6 "
-    "not every "
-    "picture is within the limits. ray lint: 6 it found something";
+    "0 done; 1 a file could not be read or written; 2 wrong usage; 3 the scene has errors; 4 stopped by the "
+    "user (the finished part is written); 5 a limit was reached (time: the finished part is written); 130 "
+    "stopped at once. ray diff: 0 equal within the limits, 1 different, 2 an error, or sizes that differ. "
+    "ray grade: 6 not every picture is within the limits. ray lint: 6 it found something";
 constexpr std::string_view kSignals =
-    "Ctrl-C or SIGTERM: finish the tiles in work, but for those that take over 5 s, write, end; before the "
-    "first tile there is nothing to write; twice: end at once. SIGUSR1 or SIGHUP: write what is finished and "
-    "go on";
+    "Ctrl-C or SIGTERM: finish the current tiles, except those that take over 5 s, write, end; before the "
+    "first tile there is nothing to write; twice: end at once. SIGUSR1 or SIGHUP: write the finished part "
+    "and continue";
 
 /// A table's cell: | would end it.
 std::string cell(std::string_view text) {

@@ -22,7 +22,7 @@ std::string lintText(const std::string& scene, std::span<const LintFinding> find
     text += message.insert(end, " [" + std::string(finding.check) + "]");
   }
   return text + printable(scene) + ": " +
-         (findings.empty() ? "nothing to complain about" : counted(findings.size(), "finding")) + "\n";
+         (findings.empty() ? "no problems found" : counted(findings.size(), "finding")) + "\n";
 }
 
 std::string lintJson(const std::string& scene, std::span<const LintFinding> findings) {

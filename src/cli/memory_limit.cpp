@@ -48,7 +48,7 @@ void say(const char* text) {
   } catch (...) {
   }
   say(lacksMemory ? "error: out of memory\nnothing written: out of memory\n"
-                  : "error: Trace failed in a way that nobody foresaw: please report this\n");
+                  : "error: Trace failed in an unexpected way: please report this\n");
   if (lacksMemory) ::_exit(static_cast<int>(Fault::limit));
   std::abort();
 }

@@ -57,7 +57,7 @@ bool saveCheckpoint(Checkpoint& checkpoint, const Film& film, Progress& progress
   }
   progress.clear();
   console.line(LogLevel::warning,
-               "warning: no checkpoint: " + why + "; what is done is lost if the machine fails");
+               "warning: no checkpoint: " + why + "; the finished part is lost if the machine fails");
   return false;
 }
 

@@ -49,7 +49,7 @@ Background sky() {
   return background;
 }
 
-/// Over the left shoulder of who looks, large enough in the sky for soft shadows.
+/// Over the left shoulder of the viewer, large enough in the sky for soft shadows.
 LightSource sun(const Camera& camera, Real size) {
   const CameraFrame axes = frame(camera, CameraAxes::orthonormal);
   Vec3 along = normalize(axes.look);

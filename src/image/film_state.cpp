@@ -271,7 +271,7 @@ class FilmState {
         throw std::runtime_error("its pixels are divided more or less often");
       from.expect(static_cast<std::uint8_t>(film.takesSplats()), "it was made in another way");
       takeCorners(from, film);
-      if (!from.atEnd()) throw std::runtime_error("it goes on where it should end");
+      if (!from.atEnd()) throw std::runtime_error("it continues where it should end");
       return;
     }
     const int asked = film.waves_.back().end;
@@ -301,7 +301,7 @@ class FilmState {
           if (film.keepsHalves()) take(from, film.first_[film.index(x, y)]);
         }
     }
-    if (!from.atEnd()) throw std::runtime_error("it goes on where it should end");
+    if (!from.atEnd()) throw std::runtime_error("it continues where it should end");
   }
 
   static void clear(Film& film, std::vector<Wave> waves) {

@@ -86,7 +86,7 @@ std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
                                toText(e.threshold) + ": no " + kindName(e.unsent);
                       },
                       [](const Roulette& e) {
-                        return "Russian roulette, which goes on with a chance of " + shortText(e.chance, 3) +
+                        return "Russian roulette with survival probability " + shortText(e.chance, 3) +
                                ": no " + kindName(e.unsent);
                       },
                       [](const TotalInternalReflection&) -> std::string {
@@ -241,7 +241,7 @@ std::string sentence(const RayNode& node, const Scene& scene) {
     last = &end;
   }
   const std::string on = sentOn(node);
-  if (!on.empty()) text += (text.empty() ? "goes on as " : "; goes on as ") + on;
+  if (!on.empty()) text += (text.empty() ? "continues as " : "; continues as ") + on;
   return text;
 }
 

@@ -1084,8 +1084,8 @@ const std::array kOptions{
     row<&Settings::tone>(
         {.name = "tone",
          .group = "Conventions",
-         .help = "8-bit pictures: clip values below 0 and above 1, map the least and largest value to 0 and "
-                 "1, or apply a curve that brings bright ones below 1",
+         .help = "8-bit pictures: clip values below 0 and above 1; map the least and largest value to 0 and "
+                 "1; or apply a curve that brings bright ones below 1",
          .source = "stretch in British Columbia and Montreal; docs/tone.md",
          .repeats = Repeats::tone}),
     row<&Settings::rounding>({.name = "rounding",

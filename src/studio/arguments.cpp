@@ -153,8 +153,7 @@ std::string helpText() {
          "Commands of a script:\n" +
          scriptHelp() +
          "\nWhat it remembers lies in $XDG_CONFIG_HOME/trace or ~/.config/trace; with --script nothing is "
-         "read or "
-         "kept.\n";
+         "read or stored.\n";
 }
 
 }  // namespace trace::studio

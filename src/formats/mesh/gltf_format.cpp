@@ -62,7 +62,7 @@ class GltfReader {
   }
 
  private:
-  /// Each byte may be used so often, in this many meshes: a small file must not become a huge scene.
+  /// The number of meshes that may use each byte: a small file must not become a huge scene.
   static constexpr std::uint64_t kMostUses = 100;
   static constexpr std::uint32_t kNoPoint = 0xffffffff;
 

@@ -110,7 +110,7 @@ struct GltfLooks::Reader {
     const auto lacks = [&](bool has, const char* what) {
       if (has && !principled && !m.unlit)
         messages.warn(place,
-                      "material \"" + from.name + "\" lets light through: its " + what + " is not rendered");
+                      "material \"" + from.name + "\" transmits light: its " + what + " is not rendered");
     };
     lacks(m.iridescence > 0, "iridescence");
     lacks(m.clearcoat > 0, "clear coat");

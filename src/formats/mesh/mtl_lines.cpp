@@ -206,7 +206,7 @@ class MtlCheck {
                               : "d 0 and Tr 0 contradict each other: the material is read as opaque");
       plain_ += "d 1\n";
     } else if (dissolve_ == 0) {
-      warn(opacityAt_, "d 0 lets all light through the material: it is invisible, but for its highlights");
+      warn(opacityAt_, "d 0 makes the material transparent: it is invisible, except for its highlights");
     }
     dissolve_.reset();
     transparency_.reset();

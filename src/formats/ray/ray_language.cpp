@@ -203,7 +203,7 @@ class Expander : Evaluator {
     for (std::uint32_t child = block + 1; child < after(block); child = after(child)) {
       if (kind(child) != Kind::entry || wordAt(child + 1) != Material::kKeyword)
         fail(child, "expected material = ..., found " + describe(at(child)),
-             "a block behind a name says what its objects are made of");
+             "a block after a name gives the material of its objects");
       copy(child, scope);
     }
   }

@@ -266,7 +266,7 @@ class Parser {
     value("an angle, as in rotate y 30 deg { }");
     beforeBody_ = false;
     blanks();
-    if (atEnd() || peek() == ')' || peek() == '}') failFound("expected what is rotated");
+    if (atEnd() || peek() == ')' || peek() == '}') failFound("expected the object to rotate");
     item();
     close(arguments);
     close(word);

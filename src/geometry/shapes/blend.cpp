@@ -108,7 +108,7 @@ Real nearestOf(CsgOperation operation, Real radius, Real near) {
 TracedBlend::TracedBlend(const Blend& shape) {
   bounds_ = add(shape.operation, std::abs(shape.radius), shape.objects.list(), {}, 0);
   if (bounds_.unbounded())
-    throw Error(Fault::scene, "a blend goes on for ever",
+    throw Error(Fault::scene, "a blend is infinite",
                 "a plane can be cut out of it, or cut it off by an intersection");
   constexpr std::size_t kMostForms = 1 << 16;
   if (forms_.size() > kMostForms) throw Error(Fault::scene, "a blend of more than 65536 solids is too large");

@@ -15,8 +15,7 @@ namespace trace {
 
 struct Plant {
   static constexpr std::string_view kKeyword = "plant";
-  static constexpr std::string_view kHelp =
-      "branches grown by the rules of an L-system, from the origin up along z";
+  static constexpr std::string_view kHelp = "branches grown by an L-system, from the origin up along z";
   static constexpr std::size_t kMostSymbols = 4'000'000, kMostBranches = 400'000;
 
   std::string axiom = "X";
@@ -28,7 +27,7 @@ struct Plant {
     return Fields{
         Field{"axiom", &Plant::axiom, "", 0, 0, "the text to begin with"},
         Field{"rules", &Plant::rules, "", 0, 0,
-              "list of \"X = text\"; of several for one symbol, chance chooses"},
+              "list of \"X = text\"; among several for one symbol, one is chosen at random"},
         Field{"iterations", &Plant::iterations, "", 0, 20, "number of times that all symbols are replaced"},
         Field{"seed", &Plant::seed, "", 0, kNoLimit, "seed of the random numbers"},
         Field{"angle", &Plant::angle, "degrees", 0, 360, "of a turn"},
