@@ -52,9 +52,10 @@ sub check {
     my ($rule) = grep { substr($small, $at) =~ /^(?:$_->{phrase})/ && ($_->{where} eq 'all' || $_->{where} eq $kind) } @rules;
     report($file, $pieces, $at, $what, $rule->{better});
   }
-  if ($kind eq 'comment') {
+  if ($kind ne 'string') {
+    my $begin = $kind eq 'page' && $text =~ /^\s*(?:(?:[*-]|\d+\.)\s+)?/ ? $+[0] : 0;
     for my $rule (grep { $_->{where} eq 'opening' } @rules) {
-      report($file, $pieces, 0, $&, $rule->{better}) if $text =~ /^(?:$rule->{phrase})/;
+      report($file, $pieces, $begin, $&, $rule->{better}) if substr($text, $begin) =~ /^(?:$rule->{phrase})/;
     }
   }
   return unless $kind eq 'page' && !grep { $file eq $_ } @labBooks;

@@ -207,12 +207,11 @@ Picture pictureOf(const Extension& extension, bool on, const std::string& scenes
 
 std::string extensionsMarkdown() {
   std::string text =
-      "# Extensions\n\nMade by `./dev features` from the table in src/app/extensions.cpp; do not edit.\n\n"
-      "What Trace has beyond the ray tracer of the courses: each example without it, with it, and where the "
-      "two "
-      "pictures differ. All is off unless the scene or the command line asks for it. Shading models are "
-      "shown beside the "
-      "nearest that Blinn and Phong's can do (`--models phong`).\n";
+      "# Extensions\n\nMade by `./dev features` from the table in src/app/extensions.cpp; do not "
+      "edit.\n\nThis page shows the extensions of Trace beyond the ray tracer of the courses: each example "
+      "without it, with it, and the difference of the two pictures. All are off unless the scene or the "
+      "command line asks for them. Shading models are compared with the closest Blinn-Phong approximation "
+      "(`--models phong`).\n";
   for (const Extension& e : kExtensions) {
     text += "\n## " + std::string(e.name) + "\n\n" + std::string(e.adds) + ".\n\n";
     for (const std::string_view which : {"off", "on", "difference"})

@@ -253,7 +253,7 @@ std::span<const Flag> flags() {
            "",
            {Verb::texture, Verb::materials},
            true,
-           "of the picture; default 256x256, and 960x600 for all materials",
+           "size of the picture; default 256x256, and 960x600 for all materials",
            setSize},
       Flag{"across", 0, Takes::value, "X", "", kTexture, true,
            "how many steps of the pattern the picture is wide; default 4 for a kind, 1 for a texture of a "

@@ -260,7 +260,7 @@ std::string optionsMarkdown() {
               cell(defaultOf(option)) + " | " + cell(what) + " | " + cell(option.source) + " |\n";
     }
   }
-  text += "\n## The program\n\n| flag | of | what it does |\n|---|---|---|\n";
+  text += "\n## The program\n\n| flag | command | what it does |\n|---|---|---|\n";
   for (const Flag& flag : flags())
     text += "| " + code(flagsOf(flag)) + " | " + namesOf(flag.commands) + " | " + cell(flag.help) + " |\n";
   text += "\nExit codes: " + std::string(kExitCodes) + ".\n\nSignals: " + std::string(kSignals) + ".\n";
