@@ -242,8 +242,8 @@ std::string optionsMarkdown() {
       "Made by `ray features --markdown` from the tables in src/scene/options.cpp and src/cli/flags.cpp; do "
       "not edit.\n\n"
       "Every option is a flag of `ray render` and `ray info`, and a keyword of `settings { }` in a scene "
-      "file. A default\n"
-      "is overridden by the scene file, and that by the command line. Options that are on or off take "
+      "file. The\n"
+      "scene file overrides a default, and the command line overrides the scene file. Switches take "
       "`--flag`,\n"
       "`--flag on`, `--flag off` and `--no-flag`.\n";
   for (std::string_view group : groups()) {
