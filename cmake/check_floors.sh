@@ -2,7 +2,7 @@
 # Prints the graph of floors (ARCHITECTURE.md) from the #include lines of src/, and fails when one goes
 # upward, sideways or through "..". CMake's include paths already keep floors apart; this shows it, and
 # catches what a relative path could smuggle past them. It also fails when another file than the two that need it
-# sees the structs of all shapes, which is dear to compile. Usage: check_floors.sh [checkout]
+# sees the structs of all shapes, which is slow to compile. Usage: check_floors.sh [checkout]
 set -euo pipefail
 
 # From the bottom. Floors on one line stand side by side and never see each other.

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Checks that docs/limits.md keeps its word: every promise names tests, and each of them exists. A name may hold
+# Checks that every guarantee of docs/limits.md names tests, and that each of them exists. A name may contain
 # `*`, as of tests over a list. Usage: check_limits.sh BUILD_FOLDER [checkout]
 set -euo pipefail
 
 build="$(cd -- "$1" && pwd -P)"
 cd -- "${2:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
-# From a folder of its own, for ctest writes over the log of a run that goes on.
+# From a folder of its own, for ctest writes over the log of a running test.
 listing="$(mktemp -d)"
 trap 'rm -rf -- "$listing"' EXIT
 echo "subdirs(\"$build\")" >"$listing/CTestTestfile.cmake"

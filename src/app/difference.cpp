@@ -22,11 +22,11 @@ constexpr std::array kMetrics{
            [](const PictureDifference& d) { return d.numbers.rmse; }},
     Metric{"psnr", "peak signal to noise ratio", "dB", true,
            [](const PictureDifference& d) { return d.numbers.psnr; }},
-    Metric{"flip", "mean FLIP error, what an eye sees: 0 nothing, 1 the most", "of 1", false,
+    Metric{"flip", "mean FLIP error, the perceived difference: 0 none, 1 the most", "of 1", false,
            [](const PictureDifference& d) { return d.flip; }},
     Metric{"beyond", "values that differ by more than the tolerance", "%", false,
            [](const PictureDifference& d) { return 100 * d.numbers.fractionBeyond; }},
-    Metric{"pixels", "pixels with such a value", "%", false,
+    Metric{"pixels", "pixels that differ", "%", false,
            [](const PictureDifference& d) { return 100 * d.numbers.pixelFractionBeyond; }},
 };
 

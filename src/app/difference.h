@@ -26,7 +26,7 @@ struct PictureDifference {
   bool levels = true;
   double tolerance = 0;  ///< what does not count as "beyond", in the same unit
   Comparison numbers;
-  std::vector<double> flipErrors;  ///< of each pixel; empty when the sizes differ
+  std::vector<double> flipErrors;  ///< flip errors of each pixel; empty when the sizes differ
   double flip = 1;                 ///< their mean
 
   std::string_view unit() const { return levels ? "levels" : "values"; }
@@ -35,7 +35,7 @@ struct PictureDifference {
 
 struct DifferenceOptions {
   double tolerance = 0;
-  double pixelsPerDegree;  ///< of the eye that FLIP stands for
+  double pixelsPerDegree;  ///< pixels per degree of the eye that FLIP stands for
 };
 PictureDifference difference(LoadedPicture reference, LoadedPicture test, const DifferenceOptions& options);
 

@@ -1,4 +1,4 @@
-// What else follows when a person has set one field of a struct of the scene by hand.
+// Changes that follow when a person has set one field of a struct of the scene by hand.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ double mostWhole();
 /// A mirror that a person has set no longer follows the highlight.
 void followEdit(Phong& now, const Phong& before, std::string_view keyword);
 
-/// A camera that the file says looks at a point goes on doing so when it is moved.
+/// A camera that the file says looks at a point continues doing so when it is moved.
 void followMove(Camera& now, std::string_view keyword, const std::optional<Vec3>& lookAt);
 
 /// The first colours of a ramp are a and b, which it takes the place of.

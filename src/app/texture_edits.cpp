@@ -34,7 +34,7 @@ bool lacksPicture(const Texture& texture) {
   return false;
 }
 
-/// What is to be seen of one that was chosen just now.
+/// The part of a texture that is shown right after it was chosen.
 TextureModel newModel(const TextureType& type) {
   TextureModel model(type);
   if (Formula* formula = model.edit<Formula>()) formula->value = FormulaText("0.5 + 0.5 * sin(6 * x)");

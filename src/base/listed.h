@@ -13,7 +13,7 @@
 
 namespace trace {
 
-/// What a row of such a table has for every list; a list's own row is derived from it.
+/// The columns of every such table; a list's own row is derived from it.
 template <class AnyField>
 struct ListedRow {
   std::string_view keyword;  ///< as in scene files

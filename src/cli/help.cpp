@@ -52,7 +52,7 @@ std::string joined(std::span<const std::string_view> words, std::string_view bet
   return text;
 }
 
-/// What stands behind the flag.
+/// The argument of the flag.
 std::string placeholder(const Option& option) {
   switch (option.kind) {
     case Option::Kind::boolean: return "[on|off]";
@@ -149,16 +149,14 @@ std::string conventionsText() {
 }
 
 constexpr std::string_view kExitCodes =
-    "0 done, 1 a file could not be read or written, 2 wrong usage, 3 the scene has errors, 4 stopped by the "
-    "user "
-    "(the finished part is written), 5 a limit was met (time: the finished part is written), 130 stopped at "
-    "once. ray diff: 0 equal within the limits, 1 different, 2 an error, or sizes that differ. ray grade: 6 "
-    "not every "
-    "picture is within the limits. ray lint: 6 it found something";
+    "0 done; 1 a file could not be read or written; 2 wrong usage; 3 the scene has errors; 4 stopped by the "
+    "user (the finished part is written); 5 a limit was reached (time: the finished part is written); 130 "
+    "stopped at once. ray diff: 0 equal within the limits, 1 different, 2 an error, or sizes that differ. "
+    "ray grade: 6 not every picture is within the limits. ray lint: 6 it found something";
 constexpr std::string_view kSignals =
-    "Ctrl-C or SIGTERM: finish the tiles in work, but for those that take over 5 s, write, end; before the "
-    "first tile there is nothing to write; twice: end at once. SIGUSR1 or SIGHUP: write what is finished and "
-    "go on";
+    "Ctrl-C or SIGTERM: finish the current tiles, except those that take over 5 s, write, end; before the "
+    "first tile there is nothing to write; twice: end at once. SIGUSR1 or SIGHUP: write the finished part "
+    "and continue";
 
 /// A table's cell: | would end it.
 std::string cell(std::string_view text) {
@@ -244,8 +242,8 @@ std::string optionsMarkdown() {
       "Made by `ray features --markdown` from the tables in src/scene/options.cpp and src/cli/flags.cpp; do "
       "not edit.\n\n"
       "Every option is a flag of `ray render` and `ray info`, and a keyword of `settings { }` in a scene "
-      "file. A default\n"
-      "is overridden by the scene file, and that by the command line. Options that are on or off take "
+      "file. The\n"
+      "scene file overrides a default, and the command line overrides the scene file. Switches take "
       "`--flag`,\n"
       "`--flag on`, `--flag off` and `--no-flag`.\n";
   for (std::string_view group : groups()) {
@@ -262,7 +260,7 @@ std::string optionsMarkdown() {
               cell(defaultOf(option)) + " | " + cell(what) + " | " + cell(option.source) + " |\n";
     }
   }
-  text += "\n## The program\n\n| flag | of | what it does |\n|---|---|---|\n";
+  text += "\n## The program\n\n| flag | command | what it does |\n|---|---|---|\n";
   for (const Flag& flag : flags())
     text += "| " + code(flagsOf(flag)) + " | " + namesOf(flag.commands) + " | " + cell(flag.help) + " |\n";
   text += "\nExit codes: " + std::string(kExitCodes) + ".\n\nSignals: " + std::string(kSignals) + ".\n";

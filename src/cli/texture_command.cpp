@@ -50,10 +50,9 @@ std::string fieldsText(const TextureType& type) {
 /// The file docs/texture-fields.md.
 std::string fieldsMarkdown() {
   std::string text =
-      "# Fields of textures\n\nMade by `ray texture --markdown`. [textures.md](textures.md) tells how "
-      "textures are used. "
-      "All have `name`, `scale`, `rotate` and\n`translate` too. Where a colour or a number stands, another "
-      "texture may.\n";
+      "# Fields of textures\n\nMade by `ray texture --markdown`. [textures.md](textures.md) describes how to "
+      "use textures. All have `name`, `scale`, `rotate` and\n`translate` too. Another texture may replace "
+      "any colour or number.\n";
   for (const TextureType& type : textureTypes()) {
     text += "\n## " + std::string(type.keyword) + "\n\n" + std::string(type.help) +
             ".\n\n| field | default | what |\n|---|---|---|\n";

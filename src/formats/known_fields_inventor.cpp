@@ -9,16 +9,16 @@ namespace {
 
 using namespace known;
 
-constexpr std::string_view kActs = "acts by a ROUTE, which is reported", kSeen = "no matter of what is seen",
-                           kCut = "nothing is cut off",
-                           kPolygons = "polygons of up to 64 corners keep their dents anyway";
+constexpr std::string_view kActs = "acts by a ROUTE, which is reported",
+                           kSeen = "does not affect the picture", kCut = "nothing is cut off",
+                           kPolygons = "polygons of up to 64 corners may be concave anyway";
 
 constexpr std::array kInventorRows{
     KnownField{"#Inventor binary", kRefused, ""},
     KnownField{"DEF and USE", kShown, "the same node again"},
     KnownField{"field value ~", kIdle, "the default holds, as the mark says"},
     KnownField{"= Engine", kReported, "the field keeps its value"},
-    KnownField{"unknown nodes", kReported, "what they hold is shown"},
+    KnownField{"unknown nodes", kReported, "their children are shown"},
     KnownField{"unknown fields", kReported, ""},
     KnownField{"Separator", kShown, ""},
     KnownField{"TransformSeparator", kShown, ""},
@@ -100,7 +100,7 @@ constexpr std::array kInventorRows{
     KnownField{"Texture2.wrapS", kShown, ""},
     KnownField{"Texture2.wrapT", kShown, ""},
     KnownField{"Texture2.model", kShown, ""},
-    KnownField{"Texture2.blendColor", kShown, "of the model BLEND"},
+    KnownField{"Texture2.blendColor", kShown, "colour of the model BLEND"},
     KnownField{"Texture2Transform.translation", kShown, ""},
     KnownField{"Texture2Transform.rotation", kShown, ""},
     KnownField{"Texture2Transform.scaleFactor", kShown, ""},
@@ -126,7 +126,7 @@ constexpr std::array kInventorRows{
     KnownField{"PerspectiveCamera.focalDistance", kIdle, "for viewers"},
     KnownField{"PerspectiveCamera.viewportMapping", kIdle, "for windows of another shape"},
     KnownField{"OrthographicCamera.height", kShown, ""},
-    KnownField{"a second camera", kReported, "the first is looked through"},
+    KnownField{"a second camera", kReported, "the first is used"},
     KnownField{"DrawStyle.style", kReported, "surfaces are drawn whole"},
     KnownField{"AsciiText", kReported, ""},
     KnownField{"Text2", kReported, ""},
@@ -159,13 +159,13 @@ constexpr std::array kInventorRows{
     KnownField{"Label", kIdle, "a comment"},
     KnownField{"Complexity", kIdle, "shapes are exact"},
     KnownField{"PickStyle", kIdle, kSeen},
-    KnownField{"Font", kIdle, "of texts, which are reported"},
-    KnownField{"FontStyle", kIdle, "of texts, which are reported"},
-    KnownField{"LinearProfile", kIdle, "of Text3, which is reported"},
-    KnownField{"ProfileCoordinate2", kIdle, "of Text3, which is reported"},
+    KnownField{"Font", kIdle, "font of texts, which are reported"},
+    KnownField{"FontStyle", kIdle, "font of texts, which are reported"},
+    KnownField{"LinearProfile", kIdle, "profile of Text3, which is reported"},
+    KnownField{"ProfileCoordinate2", kIdle, "profile of Text3, which is reported"},
     KnownField{"ColorIndex", kIdle, "for screens with a table of colours"},
-    KnownField{"Callback", kIdle, "of a program"},
-    KnownField{"EventCallback", kIdle, "of a program"},
+    KnownField{"Callback", kIdle, "for a program"},
+    KnownField{"EventCallback", kIdle, "for a program"},
 };
 
 constexpr std::array kVrml97Rows{
@@ -173,9 +173,9 @@ constexpr std::array kVrml97Rows{
     KnownField{"PROTO", kShown, "its first node"},
     KnownField{"IS", kShown, ""},
     KnownField{"PROTO: eventIn", kIdle, kActs},
-    KnownField{"EXTERNPROTO", kShown, "of a file, by its name or the first there"},
+    KnownField{"EXTERNPROTO", kShown, "the prototype in a file, by its name or the first there"},
     KnownField{"DEF and USE", kShown, "the same node again"},
-    KnownField{"unknown nodes", kReported, "what they hold is shown"},
+    KnownField{"unknown nodes", kReported, "their children are shown"},
     KnownField{"unknown fields", kReported, ""},
     KnownField{"Group.children", kShown, ""},
     KnownField{"Transform.translation", kShown, ""},
@@ -260,7 +260,7 @@ constexpr std::array kVrml97Rows{
     KnownField{"Extrusion.solid", kShown, ""},
     KnownField{"Extrusion.convex", kIdle, kPolygons},
     KnownField{"Text", kReported, ""},
-    KnownField{"FontStyle", kIdle, "of texts, which are reported"},
+    KnownField{"FontStyle", kIdle, "font of texts, which are reported"},
     KnownField{"PointSet", kReported, ""},
     KnownField{"IndexedLineSet", kReported, ""},
     KnownField{"PointLight.on", kShown, ""},
@@ -269,7 +269,7 @@ constexpr std::array kVrml97Rows{
     KnownField{"PointLight.ambientIntensity", kShown, ""},
     KnownField{"PointLight.location", kShown, ""},
     KnownField{"PointLight.attenuation", kShown, ""},
-    KnownField{"PointLight.radius", kReported, "if it is not the default: the light shines farther"},
+    KnownField{"PointLight.radius", kReported, "if it is not the default: the light is not cut off"},
     KnownField{"DirectionalLight.direction", kShown, ""},
     KnownField{"SpotLight.direction", kShown, ""},
     KnownField{"SpotLight.beamWidth", kShown, ""},
@@ -279,7 +279,7 @@ constexpr std::array kVrml97Rows{
     KnownField{"Viewpoint.fieldOfView", kShown, ""},
     KnownField{"Viewpoint.description", kIdle, kSeen},
     KnownField{"Viewpoint.jump", kIdle, kSeen},
-    KnownField{"a second Viewpoint", kReported, "the first is looked through"},
+    KnownField{"a second Viewpoint", kReported, "the first is used"},
     KnownField{"NavigationInfo.headlight", kReported,
                "where it contradicts: a light at the camera shines if the file has no other"},
     KnownField{"NavigationInfo.type", kIdle, kSeen},
@@ -310,8 +310,8 @@ constexpr std::array kVrml97Rows{
     KnownField{"OrientationInterpolator", kIdle, kActs},
     KnownField{"PositionInterpolator", kIdle, kActs},
     KnownField{"ScalarInterpolator", kIdle, kActs},
-    KnownField{"Sound", kIdle, "nothing to see"},
-    KnownField{"AudioClip", kIdle, "nothing to see"},
+    KnownField{"Sound", kIdle, "invisible"},
+    KnownField{"AudioClip", kIdle, "invisible"},
     KnownField{"WorldInfo", kIdle, "a comment"},
 };
 

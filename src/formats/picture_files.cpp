@@ -41,7 +41,8 @@ std::string plain(std::string_view name) {
   return text;
 }
 
-/// What tells the picture from others of its scene: its own name, or where it lies: "images-0-", "11-7".
+/// The part of a name that differs from others of its scene: its own name, or where it lies: "images-0-",
+/// "11-7".
 std::string nameOf(const Pixels& pixels, const PictureFormat& format) {
   constexpr std::size_t kLong = 60;
   std::string name = plain(pixels.inside->name);

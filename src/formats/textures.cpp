@@ -80,7 +80,7 @@ void loadTextures(Scene& scene, Messages& messages) {
   });
 
   UnusedTextures unread;
-  std::string reason;  // of the first
+  std::string reason;  // reason of the first
   for (auto* file : files) {
     auto& [path, loaded] = *file;
     scene.inputs.note(loaded.inputs);

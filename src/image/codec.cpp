@@ -105,7 +105,7 @@ constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max() / siz
 constexpr PictureFormat kFormats[] = {
     {"PNG", kPng, "8 bits a channel, compressed without loss; carries the render's settings", false, true,
      INT_MAX, kMostStbPixels, encodePng, isPng, decodePng, pngText, pngRemark},
-    {"BMP", kBmp, "8 bits a channel, uncompressed; what the courses hand in", false, true, INT_MAX,
+    {"BMP", kBmp, "8 bits a channel, uncompressed; for hand-ins in the courses", false, true, INT_MAX,
      kMostStbPixels, encodeBmp, isBmp, decodeBmp, noMetadata, bmpRemark},
     {"PPM", kPpm, "8 bits a channel, uncompressed; the simplest there is", false, true, INT_MAX, kAnyNumber,
      encodePpm, isPpm, decodePpm, commentLines, noRemark},

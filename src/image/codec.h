@@ -18,7 +18,7 @@
 
 namespace trace {
 
-/// What may be read. Asked of a file's header, before memory is taken for its pixels.
+/// The limits of reading. Checked in a file's header, before memory is allocated for its pixels.
 struct PictureLimits {
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes, for the picture and what its decoder needs
 };
@@ -42,7 +42,7 @@ struct PictureFormat {
   Raster (*decode)(std::string_view bytes, const PictureLimits&);
   /// The words stored with the picture; may throw as decode does.
   Metadata (*metadata)(std::string_view bytes);
-  /// What of a file that can be decoded is not as it should be, or is not shown; "" if there is nothing to
+  /// Remarks on a file that can be decoded: flaws, or parts that are not shown; "" if there is nothing to
   /// say.
   std::string (*remark)(std::string_view bytes);
 };
@@ -75,7 +75,7 @@ const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& 
 /// the limits, and when memory is short.
 Picture decodePicture(std::string_view bytes, const std::string& name, const PictureLimits& limits = {});
 
-/// The same as the file has it, with transparency. Throws as decodePicture().
+/// Decodes the picture as the file has it, with transparency. Throws as decodePicture().
 Raster decodeRaster(std::string_view bytes, const std::string& name, const PictureLimits& limits = {});
 
 /// A warning about a picture that decodeRaster() has read, such as of layers that are not shown; "" for none.

@@ -111,7 +111,7 @@ Extent checkedExtent(const Imath::Box2i& window, size_t fileBytes, const Picture
 struct ShownChannels {
   std::vector<std::string> shown;  ///< red, green, blue or a grey, then alpha; "" for one that is black
   bool isChroma = false;           ///< Y, RY and BY stand for red, green and blue
-  std::string remark;              ///< of what is not shown
+  std::string remark;              ///< remark on parts that are not shown
 };
 
 /// Channels of the layer that are no part of the picture, such as the depth.

@@ -1,4 +1,4 @@
-// What the table of codec.cpp is made of, and the limits its parts keep. Only the codec files include it.
+// Parts of the table of codec.cpp, and the limits they keep. Only the codec files include it.
 //
 // Encoders take a picture that passed checkEncodable(). Decoders throw a std::exception whose what() is the
 // reason; codec.cpp makes an Error of it that names the file.

@@ -19,7 +19,7 @@ struct ExrHeaders {
 /// Throws std::runtime_error for an attribute that does not fit into the file.
 ExrHeaders exrHeaders(std::string_view bytes);
 
-/// What the first part's blocks should hold.
+/// The expected contents of the first part's blocks.
 struct ExrLayout {
   struct Channel {
     int bytes, xSampling, ySampling;
@@ -27,10 +27,10 @@ struct ExrLayout {
   enum class Packing { none, runs, deflate, other };
 
   Packing packing = Packing::other;
-  int rows = 1;  ///< of a block
+  int rows = 1;  ///< rows of a block
   int minX = 0, minY = 0, maxX = 0, maxY = 0;
   std::vector<Channel> channels;
-  int tileWidth = 0, tileHeight = 0;  ///< of a tiled part
+  int tileWidth = 0, tileHeight = 0;  ///< tile width and tile height of a tiled part
 };
 
 /// Throws std::runtime_error unless every block of the full resolution is there and unpacks to all its

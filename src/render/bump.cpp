@@ -123,7 +123,7 @@ Vec3 World::bentNormal(const Ray& ray, const Hit& hit, Bent what) const {
   const Real height = heights.at(here);
   Vec3 gradient;
   for (const Vec3& tangent : {first, cross(normal, first)}) {
-    const Vec3 across = linear(out, tangent);  // of unit length in the object
+    const Vec3 across = linear(out, tangent);  // across of unit length in the object
     const Real step = size * 0x1p-10 / length(across);
     const auto moved = [&](const Vec2& uv, const SurfaceSlopes& by) {
       return Vec2{uv.x + dot(by.u, across) * step, uv.y + dot(by.v, across) * step};

@@ -157,7 +157,7 @@ void Interaction::addOpen(Gather& sum, Term::Kind kind, const Color& factor, int
 
 namespace {
 
-/// How high above the place rays start that look for the surface around it, in parts of the distance.
+/// How high above the place rays start that look for the surface around it, as a fraction of the distance.
 constexpr Real kLookDown = 0.4;
 
 /// The direction as the rotation takes it that turns one unit normal to another, which is not opposite.
@@ -168,10 +168,10 @@ Vec3 turnedAlong(const Vec3& direction, const Vec3& from, const Vec3& to) {
 
 }  // namespace
 
-/// Whether a ray from so high above the place down to a point of the plane there meets the surface as it goes
-/// on from the place: about there, and bent no more than PhotonMap takes for one surface.
+/// Whether a ray from so high above the place down to a point of the plane there meets the surface as
+/// it continues from the place: about there, and bent no more than PhotonMap takes for one surface.
 bool Interaction::continues(const Vec3& to, Real height) const {
-  constexpr Real kNearest = 0.7, kFarthest = 2, kSteepest = 0.045;  // in parts of the distance
+  constexpr Real kNearest = 0.7, kFarthest = 2, kSteepest = 0.045;  // as a fraction of the distance
   const Vec3 up = trueNormal(), from = hit.surface.point + up * height;
   const Ray ray{from, normalize(to - from)};
   const std::optional<Found> found = tracer.look(ray, RayKind::bounce);

@@ -67,7 +67,7 @@ std::vector<Material> shownAs(std::vector<Material> materials, const Settings& s
 
 }  // namespace
 
-/// What a World takes over from the one before: an edit in the studio changes little of a scene.
+/// The parts that a World takes over from the one before: an edit in the studio changes little of a scene.
 class World::Earlier {
  public:
   Earlier(const Compiled* before, const Scene& scene, const Settings& settings)
@@ -120,7 +120,7 @@ class World::Earlier {
   const Compiled* before_;
   const Scene& scene_;
   bool sameAccel_ = false, sameNormals_ = false;
-  std::vector<Material> materials_;  // of the scene before, as it was shown
+  std::vector<Material> materials_;  // materials of the scene before, as it was shown
   TreesOfMeshes trees_;
   MeshTrees operandTrees_;  // by the data of the scene, without generated normals
 };
@@ -143,7 +143,7 @@ TracedShape prepared(const Object& object, const MeshTrees& made) {
   }
 }
 
-/// The first material that is the same but for its name and priority.
+/// The first material that is the same except for its name and priority.
 std::vector<std::uint32_t> kindsOf(const std::vector<Material>& materials, const Rules& rules) {
   std::map<std::tuple<Real, Real, Real, Real, Real>, std::vector<std::uint32_t>> firsts;  // by some numbers
   const auto nameless = [](Material material) {
@@ -258,7 +258,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     }
     if (flat)  // stays, for the numbering of objects; its empty bounds are never met
       messages.warn(object.place, "the object's transform squeezes it flat, so it is left out");
-    std::vector<std::uint32_t> used{object.material};  // of all its parts
+    std::vector<std::uint32_t> used{object.material};  // materials used by all its parts
     Box3 box;
     if (const auto shared = instance.shape.mesh()) {
       const Displacement displacement(*shared, object.material, materials);

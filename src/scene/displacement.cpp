@@ -32,7 +32,7 @@ bool Displacement::wantsUv() const {
 }
 
 MeshData Displacement::of(const MeshData& mesh, const Place& place) const {
-  constexpr int kMostLevels = 12;  // of one triangle
+  constexpr int kMostLevels = 12;  // most levels of one triangle
   if (levels_ > kMostLevels || mesh.triangles.size() > kMostTriangles >> (2 * levels_))
     throw Error(Fault::limit, place,
                 "displacement_levels: expected a mesh that gets at most 50 million triangles, found one of " +

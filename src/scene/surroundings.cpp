@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What nobody takes for the surroundings that were meant.
+/// A picture that stands for missing surroundings.
 Picture missingPicture(int width, int height) {
   Picture checker(width, height);
   for (int y = 0; y < height; ++y)
@@ -173,10 +173,9 @@ void readSurroundings(Scene& scene, const Settings& settings, const PictureLimit
           [&] {
             Picture picture = reader.picture(file);
             if (std::all_of(picture.pixels.begin(), picture.pixels.end(), isBlack))
-              messages.warn(
-                  Place{.file = file},
-                  "aperture-picture: the picture is black everywhere: all of it is taken to be open",
-                  "white lets light through, and black does not");
+              messages.warn(Place{.file = file},
+                            "aperture-picture: the picture is black everywhere: all of it counts as open",
+                            "white is open, and black is closed");
             return picture;
           },
           [] { return missingPicture(8, 8); }));

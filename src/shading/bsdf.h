@@ -1,4 +1,4 @@
-// What a place of a surface does with light: the material models under the conventions of a render.
+// The scattering of light at a surface point: the material models under the conventions of a render.
 //
 // A material says what a person wrote; its Bsdf is what light meets. Each model has both, in one header of
 // shading/materials/. The contract of all functions here is in shading/scattering.h.
@@ -18,7 +18,7 @@ namespace trace {
 
 /// A row of the table of Bsdfs: what a model's Bsdf answers, whatever its type.
 struct BsdfRow {
-  std::string_view keyword;                  ///< of the model; "mixed" of several
+  std::string_view keyword;                  ///< the model's; "mixed" for several
   void (*copy)(void* to, const void* from);  ///< to where nothing is yet
   void (*destroy)(void* bsdf);
   std::vector<ModelField> (*said)(void* bsdf);
@@ -33,7 +33,7 @@ struct BsdfRow {
   Real (*density)(const void* bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight);
   bool (*scatters)(const void* bsdf);
   bool (*hasGrain)(const void* bsdf);
-  /// Of three of this model.
+  /// The mix of three Bsdfs of this model.
   Bsdf (*mix)(const Bsdf& a, const Bsdf& b, const Bsdf& c, const Real (&weight)[3]);
 };
 
@@ -80,7 +80,7 @@ class Bsdf {
 
   const BsdfRow& row() const { return *row_; }
   const void* data() const { return data_; }
-  /// What every Bsdf begins with.
+  /// The base of every model's Bsdf.
   const WhittedTerms& terms() const { return *static_cast<const WhittedTerms*>(data()); }
   /// The model's fields at the place; of several what they have in common.
   std::vector<ModelField> said() const { return row_->said(const_cast<std::byte*>(data_)); }
@@ -108,8 +108,8 @@ Bsdf bsdfOf(const Material& material, const TexturePlace& place, const Rules& ru
 
 inline const WhittedTerms& whitted(const Bsdf& bsdf) { return bsdf.terms(); }
 
-/// What of light from `toLight` goes toward `toEye` in Whitted's equation, the cosine to the normal included.
-/// Here and below Phong's model, the most frequent, is asked without a call.
+/// The fraction of light from `toLight` that goes toward `toEye` in Whitted's equation, the cosine to the
+/// normal included. Here and below Phong's model, the most frequent, is asked without a call.
 inline Scatter scatter(const Bsdf& bsdf, const Frame& frame, const Vec3& toLight, const Vec3& toEye) {
   if (const auto* phong = bsdf.as<PhongBsdf>()) return phong->scatter(frame.normal, toLight, toEye);
   return bsdf.row().scatter(bsdf.data(), frame, toLight, toEye);
@@ -121,7 +121,7 @@ inline Color mirrorWeight(const Bsdf& bsdf, Real cosine) {
   if (const auto* phong = bsdf.as<PhongBsdf>()) return phong->mirrorWeight(cosine);
   return bsdf.row().mirrorWeight(bsdf.data(), cosine);
 }
-/// The same without the rays that stand for lobes, for integrators that follow these.
+/// The terms without the rays that stand for lobes, for integrators that follow these.
 Color exactMirrorWeight(const Bsdf& bsdf, Real cosine);
 /// The weight of the ray that goes straight on, where the passage is straight.
 inline Color passWeight(const Bsdf& bsdf, Real cosine) { return bsdf.row().passWeight(bsdf.data(), cosine); }

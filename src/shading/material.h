@@ -55,7 +55,7 @@ class MaterialModel : public Listed<ModelType, ModelField> {
 };
 
 /// Which sides of a surface reflect light. Of `front` the back is dark; `both` turns the normal to the
-/// viewer's side first. It does not change what light passes into: there the two sides differ.
+/// viewer's side first. It does not change the transmitted side: there the two sides differ.
 enum class ShadedSides { front, both };
 constexpr std::array<std::string_view, 2> names(ShadedSides) { return {"front", "both"}; }
 
@@ -64,49 +64,49 @@ struct Material {
 
   std::string name;
   MaterialModel model;
-  std::vector<FieldTexture> textures{};  ///< of its model's fields, and of its own
+  std::vector<FieldTexture> textures{};  ///< textures of its model's fields, and of its own
   Real bump = 0;                         ///< its texture bends the normal for shading
   Real opacity = 1;                      ///< share of the surface that is there
   ShadedSides sides = ShadedSides::front;
   Real displacement = 0;       ///< moves the points of meshes (scene/displacement.h)
-  int displacementLevels = 0;  ///< so often each triangle is cut in four before
-  // What fills the body (shading/medium.h).
+  int displacementLevels = 0;  ///< / number of times each triangle is cut in four before
+  // The medium inside (shading/medium.h).
   Real mediumDensity = 0;
   Color mediumScatters{1}, mediumAbsorbs{}, mediumGlows{};
   Real mediumForward = 0;
 
-  /// What a material has whatever its model.
+  /// The fields of a material whatever its model.
   static constexpr auto fields() {
-    return Fields{
-        Field{"bump", &Material::bump, "units of the object", -kNoLimit, kNoLimit,
-              "how high the surface seems to stand where the texture that it scales is white"},
-        Field{"opacity", &Material::opacity, "", 0, 1,
-              "share of the surface that is there: through the rest light goes straight on"},
-        Field{"sides", &Material::sides, "", -kNoLimit, kNoLimit,
-              "which sides of an opaque surface reflect light"},
-        Field{"displacement", &Material::displacement, "units of the object", -kNoLimit, kNoLimit,
-              "how far the points of a mesh move along their normals; a texture of heights "
-              "scales it"},
-        Field{"displacement_levels", &Material::displacementLevels, "", 0, 10,
-              "so often each triangle of a mesh is cut in four before its points move"},
-        Field{"medium_density", &Material::mediumDensity, "per unit", 0, kNoLimit,
-              "of what fills the body: smoke, cloud, flame, milk; 0: nothing. A texture counts from 0 to 1"},
-        Field{"medium_scatters", &Material::mediumScatters, "", 0, kNoLimit,
-              "how much light is scattered along a unit of length where the density is 1"},
-        Field{"medium_absorbs", &Material::mediumAbsorbs, "", 0, kNoLimit,
-              "how much is swallowed there: soot, ink"},
-        Field{"medium_glows", &Material::mediumGlows, "", 0, kNoLimit, "light that is given off there: fire"},
-        Field{"medium_forward", &Material::mediumForward, "", -1, 1,
-              "how much more light is scattered on than back; a cloud has 0.85, smoke 0.5"}};
+    return Fields{Field{"bump", &Material::bump, "units of the object", -kNoLimit, kNoLimit,
+                        "apparent height of the surface where its texture is white"},
+                  Field{"opacity", &Material::opacity, "", 0, 1,
+                        "coverage of the surface: light passes straight through the rest"},
+                  Field{"sides", &Material::sides, "", -kNoLimit, kNoLimit,
+                        "which sides of an opaque surface reflect light"},
+                  Field{"displacement", &Material::displacement, "units of the object", -kNoLimit, kNoLimit,
+                        "how far the points of a mesh move along their normals; a texture of heights "
+                        "scales it"},
+                  Field{"displacement_levels", &Material::displacementLevels, "", 0, 10,
+                        "number of subdivision levels before the points move"},
+                  Field{"medium_density", &Material::mediumDensity, "per unit", 0, kNoLimit,
+                        "density of the medium inside: smoke, cloud, flame, milk; 0: none. A texture is "
+                        "clamped to 0 to 1"},
+                  Field{"medium_scatters", &Material::mediumScatters, "", 0, kNoLimit,
+                        "scattering coefficient per unit of length at density 1"},
+                  Field{"medium_absorbs", &Material::mediumAbsorbs, "", 0, kNoLimit,
+                        "absorption coefficient: soot, ink"},
+                  Field{"medium_glows", &Material::mediumGlows, "", 0, kNoLimit, "emission: fire"},
+                  Field{"medium_forward", &Material::mediumForward, "", -1, 1,
+                        "mean cosine of the scattering angle; a cloud has 0.85, smoke 0.5"}};
   }
   bool operator==(const Material&) const = default;
 };
 
-/// Keywords of colours that models have in common: what a surface gives off, its share of the ambient light,
+/// Keywords of colours that models have in common: what a surface emits, its share of the ambient light,
 /// and what it looks like, which is `color` where it is no diffuse reflectance.
 inline constexpr std::string_view kEmissive = "emissive", kAmbient = "ambient", kDiffuse = "diffuse",
                                   kColor = "color";
-/// And what every material has, whatever its model.
+/// The keywords that every material has, whatever its model.
 inline constexpr std::string_view kOpacity = "opacity";
 /// color = change(color) for those of the keywords that the model has.
 void changeColors(MaterialModel& model, std::initializer_list<std::string_view> keywords,
@@ -114,7 +114,7 @@ void changeColors(MaterialModel& model, std::initializer_list<std::string_view> 
 
 /// Fields of the same keyword and type keep their values; the others get the defaults of model `to`.
 MaterialModel converted(const MaterialModel& from, const MaterialModel& to);
-/// The same of a material, whose textures stay where there still is a field for them.
+/// The model of a material, whose textures stay where there still is a field for them.
 Material withModel(Material material, const MaterialModel& to);
 
 /// Changes every picture of the material's textures: change(Pixels&).
@@ -126,9 +126,10 @@ void changePixels(Material& material, const Change& change) {
 /// As Phong's model says it, for formats and checks that know no other: its own values, or the nearest to
 /// them.
 Phong phongOf(const MaterialModel& model);
-/// The same for a material; one that is not wholly there lets light through.
+/// The Phong approximation of a material; one with holes transmits light.
 Phong phongOf(const Material& material);
-/// The same for formats that have no holes: what a texture makes transparent in places is opaque.
+/// The Phong approximation for formats that have no holes: what a texture makes transparent in places is
+/// opaque.
 Phong phongWithoutTextures(const Material& material);
 
 inline bool glows(const Material& material) { return !isBlack(phongOf(material).emissive); }

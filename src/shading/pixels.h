@@ -12,7 +12,7 @@ namespace trace {
 /// A picture file that lies inside the file of a scene.
 struct InsideFile {
   std::string name;   ///< that the scene's file gives it; may be empty
-  std::string bytes;  ///< of the picture file
+  std::string bytes;  ///< bytes of the picture file
 };
 
 /// The pixels of a file, behind a shared const handle; null until they are loaded (formats/textures.h).

@@ -66,7 +66,7 @@ struct TexturePlacement {
     return Fields{
         Field{"scale", &TexturePlacement::scale, "", -kNoLimit, kNoLimit, "makes the pattern larger"},
         Field{"rotate", &TexturePlacement::rotate, "degrees", -kNoLimit, kNoLimit,
-              "turns it about x, then y, then z"},
+              "rotates it about x, then y, then z"},
         Field{"translate", &TexturePlacement::translate, "", -kNoLimit, kNoLimit, "moves it"}};
   }
   bool operator==(const TexturePlacement&) const = default;
@@ -82,7 +82,8 @@ class Texture {
   const TextureNode& operator*() const;
   const TextureNode* operator->() const { return &**this; }
   Color at(const TexturePlace& place) const;
-  /// How many textures one place asks, this one and those in it; one that stands in two places counts twice.
+  /// The number of textures that one place evaluates, this one and those in it; one that stands in two places
+  /// counts twice.
   double size() const;
 
   /// Two that share their data are equal at once.
@@ -129,7 +130,7 @@ bool wantsSecondUv(const Texture& texture);
 /// A few words for a person: its name, or what it is.
 std::string summary(const Texture& texture);
 
-/// What a number takes of a colour: of a grey that grey, to the last bit.
+/// The number that stands for a colour: of a grey that grey, to the last bit.
 constexpr Real luminance(const Color& c) {
   return c.r == c.g && c.g == c.b ? c.r : 0.299 * c.r + 0.587 * c.g + 0.114 * c.b;
 }

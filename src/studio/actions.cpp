@@ -97,7 +97,7 @@ constexpr std::array kActions{
            canDelete, nullptr},
     Action{"Render", "Render", kF5, false, false, "render the scene as it is now",
            [](Studio& s) { s.workspace.startRender(); }, hasScene, nullptr},
-    Action{"Render", "Stop", kEscape, false, false, "stop; what is done stays",
+    Action{"Render", "Stop", kEscape, false, false, "stop; finished parts stay",
            [](Studio& s) { s.workspace.render.stop(); }, renders, nullptr},
     Action{"Render", "Render after every change", 0, false, false, "the picture follows what you do",
            [](Studio& s) { s.workspace.automatic = !s.workspace.automatic; }, always,

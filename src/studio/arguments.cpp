@@ -12,7 +12,7 @@ namespace trace::studio {
 
 namespace {
 
-/// What the renderer's other flags do is in the menus.
+/// The functions of the renderer's other flags are in the menus.
 const ShortFlag& shortFlag(char letter) {
   std::string known;
   for (const ShortFlag& flag : shortFlags()) {
@@ -153,8 +153,7 @@ std::string helpText() {
          "Commands of a script:\n" +
          scriptHelp() +
          "\nWhat it remembers lies in $XDG_CONFIG_HOME/trace or ~/.config/trace; with --script nothing is "
-         "read or "
-         "kept.\n";
+         "read or stored.\n";
 }
 
 }  // namespace trace::studio

@@ -83,7 +83,7 @@ void drawLeaving(Studio& studio) {
   if (studio.leaving && !ImGui::IsPopupOpen(kLeavingTitle)) ImGui::OpenPopup(kLeavingTitle);
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
   if (!ImGui::BeginPopupModal(kLeavingTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-  ImGui::TextUnformatted(studio.workspace.document.edited() ? "What was changed is not in a file yet."
+  ImGui::TextUnformatted(studio.workspace.document.edited() ? "There are unsaved changes."
                                                             : "The scene's file is no longer on the disk.");
   const ImVec2 size{characters(16), 0};
   const auto close = [&] {

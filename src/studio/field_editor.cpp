@@ -38,12 +38,12 @@ struct FileChoice {
   std::string name{};
 };
 FileChoice& fileChoice() {
-  static FileChoice choice;  // of the one dialog that the window has
+  static FileChoice choice;  // choice of the one dialog that the window has
   return choice;
 }
 
 std::string& outerFields() {
-  static std::string names;  // of the one table that is drawn now
+  static std::string names;  // names of the one table that is drawn now
   return names;
 }
 std::string& outerNames() {

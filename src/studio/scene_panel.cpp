@@ -216,7 +216,7 @@ void editMaterial(Studio& studio) {
   };
   if (!beginFields("material", true)) return;
   const FieldsWithin within(name + ":");
-  fieldName("name", "what the panels call it");
+  fieldName("name", "its name in the panels");
   if (editValue({}, material.name)) changed("name");
   const std::vector<std::string_view> models = modelKeywords();
   std::size_t chosen = material.model.type().index;
@@ -262,7 +262,7 @@ void editOnly(Studio& studio, Thing Scene::*member) {
         return studio.refuse("camera: " + std::string(key) + " was not taken: the camera would see nothing");
       }
       if (lookAt && key == "viewdir")
-        studio.refuse("camera: viewdir is said in place of the file's look_at from now on");
+        studio.refuse("camera: viewdir replaces the file's look_at from now on");
     }
     change(studio, name + ": " + std::string(key), [&](Scene& scene) { scene.*member = thing; });
   });

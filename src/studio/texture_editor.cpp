@@ -34,7 +34,7 @@ bool patternButton(bool has) {
   return pressed;
 }
 
-/// What was chosen: the keyword of a kind, or "" for no texture.
+/// The choice: the keyword of a kind, or "" for no texture.
 std::optional<std::string> chosenKind(std::string_view now) {
   std::optional<std::string> chosen;
   if (ImGui::Selectable("plain value", now.empty())) chosen = "";
@@ -62,7 +62,7 @@ void idleField(const Field& field, const std::string& why) {
   landmark("idle");
 }
 
-/// What is wrong with it, over the whole width.
+/// A line with the errors of the texture, over the whole width.
 void showFlaws(const TextureNode& node) {
   for (const std::string& flaw : flawsOf(node)) {
     ImGui::TableNextRow();

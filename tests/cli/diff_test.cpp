@@ -85,7 +85,7 @@ TEST_F(Diff, MeansAreTold) {
 TEST_F(Diff, LevelsBesideLightGetAWarning) {
   picture("light.exr", 0.5);
   const Run mixed = run({"diff", "light.exr", "a.png"});
-  EXPECT_TRUE(contains(mixed.err, "a.png holds levels of a screen, cut off at 1, and light.exr light"))
+  EXPECT_TRUE(contains(mixed.err, "a.png has levels of a screen, clipped at 1, and light.exr light"))
       << mixed.err;
   EXPECT_TRUE(contains(mixed.out, "values"));
   EXPECT_EQ(run({"diff", "light.exr", "light.exr"}).err, "");

@@ -472,7 +472,7 @@ TEST(BrokenFiles, Obj) {
       {"Ns -5", "warning Ns: expected at least 0, found -5"},
       {"Ni 0", "warning Ni: expected at least 0.001, found 0"},
       {"d 5", "warning d: expected 0 to 1, found 5"},
-      {"d 0", "warning d 0 lets all light through the material"},
+      {"d 0", "warning d 0 makes the material transparent"},
       {"Tr 1", "warning Tr 1 without d would make the material invisible: it is read as opaque"},
       {"d 0\nTr 0", "warning d 0 and Tr 0 contradict each other"},
       {"KD 1 0 banana", "warning Kd: expected a number, found \"banana\""},

@@ -298,7 +298,7 @@ TEST(RayTree, SaysWhyNoRayIsSentOn) {
   settings.depth = 1, settings.threshold = 0.5;
   EXPECT_EQ(sentences(scene, settings).at(0), "contribution 0.25 below threshold 0.5: no reflection");
   settings.threshold = 0;
-  EXPECT_EQ(sentences(scene, settings).at(0), "goes on as reflection");
+  EXPECT_EQ(sentences(scene, settings).at(0), "continues as reflection");
 }
 
 TEST(RayTree, SaysThatLightIsReflectedTotally) {

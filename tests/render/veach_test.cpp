@@ -520,7 +520,7 @@ TEST(Veach, WhatIsNotKnownIsRefused) {
             "--chains veach does not know surfaces that are there in part (opacity)");
   Scene cloud = lit();
   addCloud(cloud, Sphere{}, Affine::translation({0.5, 0.5, 0.5}) * scaled(0.3), 1);
-  EXPECT_EQ(refused(cloud, settings), "--chains veach does not know media that fill bodies");
+  EXPECT_EQ(refused(cloud, settings), "--chains veach does not know media inside objects");
   settings.chains = Chains::bdpt;
   EXPECT_EQ(refused(cloud, settings), "");
 }

@@ -103,7 +103,7 @@ class Writer {
   }
   void add(const GoniometricLight& light) {
     fading(light);
-    warn("lights with photometric files become points that shine to all sides");
+    warn("lights with photometric files become uniform point lights");
     file_.lamps.push_back({.kind = cf::Lamp::Kind::point, .position = light.position, .color = light.color});
   }
   /// It is in the materials; see material().

@@ -34,7 +34,7 @@ struct Painted {
   Color base;
   Real through = 0;
 };
-/// What of them counts under the picture.
+/// The channels that are used under the picture.
 Painted under(const PaintedPicture& picture, const Painted& painted);
 
 /// Puts the picture on the material.

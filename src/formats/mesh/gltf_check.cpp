@@ -265,8 +265,7 @@ class GltfCheck : private GltfMaterialCheck {
     number(light, "intensity", 0);
     number(light, "range", 0);
     if (light.find("range"))
-      warn(light.pathOf("range") + " is not taken into account: the light shines on what is farther away too",
-           {}, "range of lights");
+      warn(light.pathOf("range") + " is ignored: it lights objects farther away too", {}, "range of lights");
     object(light, "spot", [&](const Part& spot) {
       known(spot, {"innerConeAngle", "outerConeAngle"});
       number(spot, "innerConeAngle", 0, 1.5708);

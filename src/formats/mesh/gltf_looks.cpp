@@ -83,7 +83,7 @@ struct GltfLooks::Reader {
   const Place place;
   Messages& messages;
   using UvSets = GltfLooks::UvSets;
-  std::vector<UvSets> uvSets{};    ///< of materials
+  std::vector<UvSets> uvSets{};    ///< uv sets of materials
   std::map<int, Pixels> inFile{};  ///< pictures in the file
   InsidePictures inside{};
   UnusedTextures unused{};
@@ -112,7 +112,7 @@ struct GltfLooks::Reader {
     const auto lacks = [&](bool has, const char* what) {
       if (has && !principled && !m.unlit)
         messages.warn(place,
-                      "material \"" + from.name + "\" lets light through: its " + what + " is not rendered");
+                      "material \"" + from.name + "\" transmits light: its " + what + " is not rendered");
     };
     lacks(m.iridescence > 0, "iridescence");
     lacks(m.clearcoat > 0, "clear coat");

@@ -27,7 +27,7 @@ Texture channelOf(ImageMap map, Channel channel) {
   return TextureNode{.model = std::move(map)};
 }
 
-/// What is mirrored where the base colour is textured: that of metals is their colour.
+/// The reflectance where the base colour is textured: that of metals is their colour.
 void textureMirror(Material& material, std::string_view field, Color& constant, const Color& plastic,
                    const MetallicRoughness& m, const Texture& base) {
   if (m.metallic == 0 || isBlack(constant)) return;

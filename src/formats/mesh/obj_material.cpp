@@ -45,7 +45,7 @@ Principled mtlPrincipled(const tinyobj::material_t& mtl) {
   return model;
 }
 
-/// What the statements of glass say, with the roughness that others add.
+/// The glass that the statements describe, with the roughness that others add.
 RoughGlass mtlGlass(const tinyobj::material_t& mtl) {
   RoughGlass glass;
   glass.color = color(mtl.transmittance);
@@ -161,7 +161,7 @@ void addTextures(const tinyobj::material_t& mtl, const MtlPictures& pictures, Ma
     put("specular_color", mtl.specular_texname, mtl.specular_texopt);
     if (!mtl.specular_highlight_texname.empty()) pictures.unused(mtl.specular_highlight_texname);
   }
-  // What is painted is painted in the ambient light too.
+  // A painted surface is painted in the ambient light too.
   if (!mtl.ambient_texname.empty())
     put("ambient", mtl.ambient_texname, mtl.ambient_texopt);
   else if (!isBlack(ambient))

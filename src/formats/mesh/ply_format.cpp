@@ -28,7 +28,7 @@ struct Face {
   std::size_t first, count, number;
 };
 
-/// What makes two corners the same point.
+/// The data that make two corners the same point.
 struct SplitCorner {
   std::uint32_t point, color;
   float u, v;

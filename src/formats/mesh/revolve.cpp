@@ -87,7 +87,7 @@ MeshData revolve(std::span<const Vec2> profile, int steps) {
   const std::vector<Real> along = lengths(profile);
   const auto rows = static_cast<std::uint32_t>(profile.size());
   MeshData mesh;
-  // The last column is the first again, but for u.
+  // The last column is the first again, except for u.
   for (int step = 0; step <= steps; ++step) {
     const Real angle = 2 * kPi * (step % steps) / steps, c = std::cos(angle), s = std::sin(angle);
     for (std::uint32_t i = 0; i < rows; ++i) {

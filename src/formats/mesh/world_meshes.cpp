@@ -85,10 +85,10 @@ std::optional<MeshData> ShapeTriangles::of(const Shape& shape, bool mapped) {
 
 void ShapeTriangles::report(const Place& place, const std::string& known, bool nothing,
                             Messages& messages) const {
-  const char *kHolds = "a .ray file holds every shape",
+  const char *kHolds = "a .ray file stores every shape",
              *kWhy =
-                 "no mesh follows what has no end, or folds finer than a 64th of the shape; a .ray file "
-                 "holds every shape";
+                 "no mesh can follow an infinite shape, or one that folds finer than a 64th of its size; a "
+                 ".ray file stores every shape";
   std::string kinds;
   for (const auto& [kind, count] : leftOut_)
     kinds += (kinds.empty() ? "" : ", ") + std::to_string(count) + " " + kind;

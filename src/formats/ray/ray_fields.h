@@ -48,7 +48,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, FormulaT
 /// The name of a photometric file beside the scene, which is read.
 bool read(Findings& findings, std::string_view name, const Item& value, PhotometryFile& to);
 
-/// What read() reads as the same value; with `digits` digits that count, if that is not 0.
+/// The text that read() reads as the same value; with `digits` digits that count, if that is not 0.
 std::string written(Real value, int digits);
 std::string written(bool value, int digits);
 std::string written(int value, int digits);
@@ -93,7 +93,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, Enum& to
   return read(findings, name, value, any);
 }
 
-/// What an element of a list looks like.
+/// The form of an element of a list.
 inline std::string form(const std::string&) { return "\"text\""; }
 inline std::string form(Real) { return "number"; }
 inline std::string form(const Color&) { return "(red, green, blue)"; }
@@ -135,7 +135,7 @@ bool numbers(const Item& tuple, Real* to, int count);
 
 /// The keyword that `word` is a synonym of, or `word`.
 std::string_view canonical(std::string_view word);
-/// The same of a field of a shape: those that students named otherwise, too.
+/// The node of a field of a shape: those that students named otherwise, too.
 std::string_view canonical(std::string_view word, std::string_view shape);
 
 /// read() of the value of the field `f`, whose range is said of a whole number that no int can hold.

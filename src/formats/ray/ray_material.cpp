@@ -205,7 +205,7 @@ void Materials::field(Block& block, const Item& field) {
   if (key == "specular" && !block.gaveReflective) phong->mirrorsSpecular = true;
 }
 
-/// Of what has no upper limit, and yet nothing is so large.
+/// A value without an upper limit that is nevertheless too large.
 void Materials::warnOfHuge(const Material& material, const Item& field) {
   constexpr Real kBrightest = 1e12, kHighest = 1e9;
   if (field.key() == "bump" && std::abs(material.bump) > kHighest)

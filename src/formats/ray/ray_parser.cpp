@@ -266,7 +266,7 @@ class Parser {
     value("an angle, as in rotate y 30 deg { }");
     beforeBody_ = false;
     blanks();
-    if (atEnd() || peek() == ')' || peek() == '}') failFound("expected what is rotated");
+    if (atEnd() || peek() == ')' || peek() == '}') failFound("expected the object to rotate");
     item();
     close(arguments);
     close(word);
@@ -589,7 +589,7 @@ class Parser {
 
   // --- errors ---
 
-  /// What stands at `start`, up to a blank or a mark of the grammar.
+  /// The text at `start`, up to a blank or a mark of the grammar.
   std::string_view textAt(std::size_t start) const {
     const std::string_view rest = source_.substr(start);
     return rest.substr(0, rest.find_first_of(" \t\r\n;,(){}=\""));
@@ -637,7 +637,7 @@ class Parser {
     return "the " + shown(source_[opened]) + " at line " + std::to_string(syntax_.place(base_ + opened).line);
   }
 
-  /// What was expected is not what stands here.
+  /// Reports that something else was expected here.
   [[noreturn]] void failFound(const std::string& expected) const {
     if (atEnd()) failAtEnd(expected.starts_with("expected ") ? expected.substr(9) : expected, {});
     fail(at_, expected + ", found " + shown(peek()));

@@ -35,7 +35,7 @@ struct Mirror {
   }
 };
 
-/// What a block starts as: what it inherits, or what it names of the library.
+/// The start of a block: the material that it inherits, or names of the library.
 Material startOf(const Item& block, const Material& inherited) {
   const std::optional<Item> named = fieldOf(block, kLibrary);
   const std::optional<Material> found =
@@ -140,8 +140,8 @@ void MaterialEdits::use(const Notes::Use& use) {
   define(wanted);
 }
 
-/// What the block says if its text stays and what it inherits from is `from`. If that is of another model,
-/// and the block names none, the block keeps what it said.
+/// The material of the block if its text stays and what it inherits from is `from`. If that is of another
+/// model, and the block names none, the block keeps what it said.
 Material MaterialEdits::followed(const Item& block, const Material& from, const Material& was) const {
   if (&from.model.type() != &was.model.type() && !fieldOf(block, kModel)) return was;
   Material result = was;

@@ -107,7 +107,7 @@ std::optional<Texture> TextureReader::block(const Item& call) {
     findings_.error(call,
                     "expected at most " + toText(kMostTextures) + " textures in one another, found " +
                         toText(texture.size()),
-                    "each place of a surface asks all of them; one that stands in two fields counts twice");
+                    "each point of a surface evaluates all of them; one in two fields counts twice");
     return {};
   }
   if (!texture->name.empty()) named_.insert_or_assign(texture->name, texture);

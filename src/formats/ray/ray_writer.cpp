@@ -362,7 +362,7 @@ class Writer {
   std::map<const MeshData*, std::size_t> uses_,
       shared_;  ///< how many objects have a mesh; its number in the file
   std::map<std::uint32_t, std::size_t> materialUses_;
-  std::map<std::uint32_t, std::string> newNames_;  ///< of materials that have none
+  std::map<std::uint32_t, std::string> newNames_;  ///< new names of materials that have none
   WrittenTextures writtenTextures_;
   /// Fields whatever the model that some material says, which others may have to take back.
   std::set<std::string_view> ownFields_ = ownFieldsOf(scene_.materials);

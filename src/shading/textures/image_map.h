@@ -11,13 +11,13 @@
 
 namespace trace {
 
-/// What of a texel counts.
+/// The channel of a texel that is used.
 enum class Channel { color, red, green, blue, alpha };
 constexpr std::array<std::string_view, 5> names(Channel) {
   return {"color", "red", "green", "blue", "alpha"};
 }
 
-/// What it tells where it is a material's `bump`.
+/// The meaning of the picture as a material's `bump`.
 enum class Relief {
   heights,
   normals,      ///< in the frame of tangents; green counts up, as in OpenGL and glTF
@@ -44,20 +44,19 @@ struct ImageMap {
         Field{"file", &ImageMap::file, "", -kNoLimit, kNoLimit, "the picture"},
         Field{"wrap_u", &ImageMap::wrapU, "", -kNoLimit, kNoLimit, "what lies beyond its sides"},
         Field{"wrap_v", &ImageMap::wrapV, "", -kNoLimit, kNoLimit, "what lies above and below it"},
-        Field{"filter", &ImageMap::filter, "", -kNoLimit, kNoLimit, "how texels are mixed"},
+        Field{"filter", &ImageMap::filter, "", -kNoLimit, kNoLimit, "texture filter"},
         Field{"centers_at_ends", &ImageMap::centersAtEnds, "", -kNoLimit, kNoLimit,
               "the outermost texels have their centres at 0 and 1, not their edges"},
         Field{"srgb", &ImageMap::srgb, "", -kNoLimit, kNoLimit,
-              "its numbers are sRGB and are made linear, before they are mixed; otherwise they are taken as "
-              "they are"},
-        Field{"channel", &ImageMap::channel, "", -kNoLimit, kNoLimit, "what of it counts"},
+              "its numbers are sRGB and are made linear before they are averaged; otherwise they are used "
+              "unchanged"},
+        Field{"channel", &ImageMap::channel, "", -kNoLimit, kNoLimit, "channel that is used"},
         Field{"relief", &ImageMap::relief, "", -kNoLimit, kNoLimit,
-              "what it tells as a bump: heights, or normals whose green counts up or down"},
+              "its meaning as a bump: heights, or normals whose green counts up or down"},
         Field{"second_uv", &ImageMap::secondUv, "", -kNoLimit, kNoLimit,
-              "it lies by the second texture coordinates of its mesh, `texture_uv2`, where that has some"},
-        Field{
-            "transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
-            "(a, b, c, d, e, f): the place (a u + b v + c, d u + e v + f) of the picture is seen at (u, v)"}};
+              "it uses the second texture coordinates of its mesh, `texture_uv2`, if there are some"},
+        Field{"transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
+              "(a, b, c, d, e, f): at (u, v) the picture is evaluated at (a u + b v + c, d u + e v + f)"}};
   }
   bool operator==(const ImageMap&) const = default;
 
