@@ -63,7 +63,8 @@ _trace_ray_offer() {
   for word in $words; do
     [[ $word == "$typed"* ]] || continue
     [[ $kind == list || $word == *= ]] && compopt -o nospace 2>/dev/null
-    printf -v word %q "$head$word"
+    word=$head$word
+    [[ $word != *' '* ]] || printf -v word %q "$word"
     COMPREPLY+=("$word")
   done
   case $kind in
@@ -71,7 +72,7 @@ _trace_ray_offer() {
       while read -r file; do COMPREPLY+=("$file"); done < <(compgen -d -- "$cur") ;;
     files) compopt -o filenames 2>/dev/null
       while read -r file; do
-        if [[ -d ${file/#\~/$HOME} || ${file,,} =~ \.($suffixes)$ ]]; then COMPREPLY+=("$file"); fi
+        if [[ -z $suffixes || -d ${file/#\~/$HOME} || ${file,,} =~ \.($suffixes)$ ]]; then COMPREPLY+=("$file"); fi
       done < <(compgen -f -- "$cur") ;;
   esac
 }
@@ -123,7 +124,7 @@ std::string bashCandidates(const Candidates& c) {
     case Kind::folders: return "kind=folders";
     case Kind::files:
       return "kind=files" + (c.words.empty() ? "" : " words=" + shellQuoted(spaced(c.words, "\n"))) +
-             " suffixes=" + shellQuoted(c.suffixes.empty() ? ".*" : alternatives(c.suffixes));
+             " suffixes=" + shellQuoted(alternatives(c.suffixes));
   }
   return "";
 }
@@ -322,7 +323,7 @@ end
 # Folders, and files with one of these suffixes
 function __trace_ray_files
     set -l suffixes (string join '|' -- $argv | string replace -a . '\\.')
-    __fish_complete_path (commandline -ct | string replace -r -- '^-[^=]*=' '') | string match -ir "^[^\t]*(/|$suffixes)(\t.*)?\$" -g 0
+    __fish_complete_path (commandline -ct | string replace -r -- '^-[^=]*=' '') | string match -ir "^[^\t]*(?:/|$suffixes)(?:\t.*)?\$"
 end
 
 )";

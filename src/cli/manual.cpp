@@ -48,9 +48,16 @@ std::string sentence(std::string_view text) {
 
 std::string item(const std::string& label, const std::string& text) { return ".TP\n" + label + "\n" + text; }
 
+/// What a flag takes; a line may end between the names of a list.
+std::string valueLabel(std::string_view value) {
+  std::string text;
+  for (char c : roff(value)) text += std::string(1, c) + (c == '|' || c == ',' ? "\\:" : "");
+  return "\\fI" + text + "\\fR";
+}
+
 /// "-w, --width" in bold, and after it what it takes.
 std::string flagLabel(const std::string& flags, const std::string& value) {
-  return bold(flags) + (value.empty() ? "" : " \\fI" + roff(value) + "\\fR");
+  return bold(flags) + (value.empty() ? "" : " " + valueLabel(value));
 }
 
 std::string optionItem(const Option& option) {
@@ -82,7 +89,7 @@ std::string firstLine(std::string_view name) {
   return ".\\\" Made by `ray features --man " + std::string(name) +
          "` from the tables that drive the program.\n"
          ".TH \"" +
-         roff(upper) + "\" 1 \"\" \"Trace " TRACE_VERSION "\" \"Trace\"\n";
+         roff(upper) + "\" 1 \"\" \"Trace " TRACE_VERSION "\" \"Trace\"\n.nh\n.ad l\n";
 }
 
 /// Words in bold, and what they mean.
@@ -119,8 +126,7 @@ std::string rayPage() {
     if (flag.letter) label = bold(std::string("-") + flag.letter) + ", " + label;
     if (flag.takes != Flag::Takes::nothing) {
       const bool optional = flag.takes == Flag::Takes::optional;
-      label += std::string(" ") + (optional ? "[" : "") + "\\fI" + roff(flag.values) + "\\fR" +
-               (optional ? "]" : "");
+      label += std::string(" ") + (optional ? "[" : "") + valueLabel(flag.values) + (optional ? "]" : "");
     }
     text += item(label, sentence(flag.help) + "Of: " + roff(namesOf(flag.commands)) + ".\n");
   }
