@@ -154,7 +154,7 @@ TEST(Pages, NamesOfPagesInTheSourcesAreThere) {
 std::vector<fs::path> steps() {
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(kSteps))
-    if (entry.path().filename() != "pieces.ray") found.push_back(entry.path());
+    if (entry.path().filename() != "pieces.inc") found.push_back(entry.path());
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -174,7 +174,7 @@ std::vector<std::string> wordsOf(const std::string& line) {
 
 TEST(Tutorial, ShowsTheSceneOfEachStep) {
   std::vector<std::string> shown;
-  const std::string pieces = readFile(kSteps / "pieces.ray");
+  const std::string pieces = readFile(kSteps / "pieces.inc");
   for (const fs::path& page : pagesBelow(kRoot / "docs/tutorial"))
     for (const std::string& block : pageOf(page).blocks)
       if (isScene(block)) {
@@ -195,7 +195,7 @@ class Lessons : public ProgramTest {
     SCOPED_TRACE(page);
     for (const std::string& block : pageOf(page).blocks) {
       if (!isCommand(block)) {
-        if (exists("pieces.ray") && !isScene(block)) continue;  // shown of that file
+        if (exists("pieces.inc") && !isScene(block)) continue;  // shown of that file
         write(name, isScene(block) ? block : "Trace 1\n" + block);
         const Run lint = run({"lint", name, "-w", "32"});
         EXPECT_EQ(lint.code, 0) << block << lint.out << lint.err;
@@ -238,7 +238,7 @@ TEST_F(Lessons, StepsOfTheTutorialRenderWithoutAWarning) {
 }
 
 TEST_F(Lessons, TheTutorialWorksWhenPasted) {
-  write("pieces.ray", readFile(kSteps / "pieces.ray"));
+  write("pieces.inc", readFile(kSteps / "pieces.inc"));
   for (const fs::path& page : pagesBelow(kRoot / "docs/tutorial")) follow(page, "still.ray");
 }
 
