@@ -126,8 +126,12 @@ void UnusedTextures::reportUnread(Messages& messages, std::string_view reason) c
   if (reason.starts_with(kAgain)) reason.remove_prefix(kAgain.size());
   const std::string name = "\"" + names_.front() + "\": ";
   if (names_.size() == 1 && reason.starts_with(name)) reason.remove_prefix(name.size());
+  const bool isWord = std::all_of(names_.begin(), names_.end(), [](const std::string& file) {
+    return file.find_first_of("./\\") == file.npos;  // as in diffuse = "red"
+  });
   messages.warn(place_, list() + " cannot be read: " + std::string(reason),
-                "a checker of magenta and black shows instead");
+                std::string("a checker of magenta and black shows instead") +
+                    (isWord ? "; a colour is (red, green, blue), each from 0 to 1" : ""));
 }
 
 }  // namespace trace

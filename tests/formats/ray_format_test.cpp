@@ -367,6 +367,10 @@ TEST(RayFormat, KeepsMapsByField) {
   EXPECT_EQ(warningsOf(text),
             "2:24: the textures \"a.bmp\", \"c.png\" and \"b.png\" cannot be read: \"a.bmp\": No such "
             "file or directory [a checker of magenta and black shows instead]");
+  EXPECT_EQ(
+      warningsOf("sphere { material = { diffuse = \"red\"; } }"),
+      "2:33: the texture \"red\" cannot be read: No such file or directory [a checker of magenta and black "
+      "shows instead; a colour is (red, green, blue), each from 0 to 1]");
 }
 
 // --- camera -------------------------------------------------------------------------------------------
