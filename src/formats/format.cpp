@@ -107,6 +107,7 @@ std::string kindOf(std::string_view bytes) {
        "ELF",
        "a program"},
   }};
+  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "a WebP picture";
   for (const auto& [beginning, kind] : kBeginnings)
     if (bytes.starts_with(beginning)) return std::string(kind);
   if (bytes.find('\0') < 4096) return "binary data";

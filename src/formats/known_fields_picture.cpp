@@ -1,6 +1,6 @@
 // How Trace treats the fields of pictures. Sources: PNG (ISO/IEC 15948); JFIF 1.02, EXIF 2.3, ITU T.81;
 // Microsoft, "Bitmap Header Types"; Truevision, TGA 2.0; Greg Ward, Radiance picture format; OpenEXR,
-// "Standard Attributes".
+// "Standard Attributes"; RFC 9649, WebP.
 #include <array>
 
 #include "formats/known_fields.h"
@@ -133,6 +133,18 @@ constexpr std::array kExrRows{
     KnownField{"other attributes", kIdle, "Trace's own tell how a picture was made"},
 };
 
+constexpr std::array kWebpRows{
+    KnownField{"VP8, with loss", kShown, ""},
+    KnownField{"VP8L, without loss", kShown, ""},
+    KnownField{"alpha of VP8L", kShown, "holes"},
+    KnownField{"ALPH", kShown, "holes"},
+    KnownField{"ANIM, ANMF", kReported, "the first picture of an animation is shown"},
+    KnownField{"EXIF: orientation", kShown, ""},
+    KnownField{"ICCP", kReported, "if it is not sRGB"},
+    KnownField{"XMP", kIdle, ""},
+    KnownField{"other chunks", kIdle, ""},
+};
+
 }  // namespace
 
 std::span<const KnownField> knownPngFields() { return kPngRows; }
@@ -141,5 +153,6 @@ std::span<const KnownField> knownBmpFields() { return kBmpRows; }
 std::span<const KnownField> knownTgaFields() { return kTgaRows; }
 std::span<const KnownField> knownHdrFields() { return kHdrRows; }
 std::span<const KnownField> knownExrFields() { return kExrRows; }
+std::span<const KnownField> knownWebpFields() { return kWebpRows; }
 
 }  // namespace trace

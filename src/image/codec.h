@@ -33,7 +33,8 @@ struct PictureFormat {
   int mostSide;                                ///< the largest width and height
   std::size_t mostPixels;
 
-  /// The file, of a picture that passed checkEncodable(). Rounding matters only to 8-bit formats.
+  /// The file, of a picture that passed checkEncodable(). Rounding matters only to 8-bit formats. Null for a
+  /// format that is only read.
   std::string (*encode)(const Picture&, Rounding, const Metadata&);
   /// Whether the bytes begin like a file of this format.
   bool (*recognise)(std::string_view bytes);
@@ -49,10 +50,15 @@ struct PictureFormat {
 
 std::span<const PictureFormat> pictureFormats();
 
-/// By the suffix of the path, in any case. Throws Error(Fault::usage) that names all known suffixes.
+/// By the suffix of the path, in any case; null if no format has it.
+const PictureFormat* pictureFormatNamed(std::string_view path);
+
+/// The format in which a file of that name is written. Throws Error(Fault::usage) that names all suffixes of
+/// formats that are written.
 const PictureFormat& pictureFormatFor(std::string_view path);
 
-/// Throws Error(Fault::usage) if the format cannot hold a picture of this size: to be asked before rendering.
+/// Throws Error(Fault::usage) if the format is only read, or cannot hold a picture of this size: to be asked
+/// before rendering.
 void checkEncodable(const PictureFormat& format, int width, int height);
 
 /// The bytes of the file. Throws as checkEncodable(), or Error(Fault::io).

@@ -88,4 +88,8 @@ Raster decodeExr(std::string_view bytes, const PictureLimits& limits);
 std::string exrRemark(std::string_view bytes);
 Metadata exrMetadata(std::string_view bytes);
 
+bool isWebp(std::string_view bytes);
+Raster decodeWebp(std::string_view bytes, const PictureLimits& limits);
+std::string webpRemark(std::string_view bytes);
+
 }  // namespace trace

@@ -81,14 +81,7 @@ class Reader {
     return faces;
   }
 
-  static bool isPicture(const std::string& name) {
-    try {
-      pictureFormatFor(name);
-      return true;
-    } catch (const Error&) {
-      return false;
-    }
-  }
+  static bool isPicture(const std::string& name) { return pictureFormatNamed(name) != nullptr; }
 
   [[noreturn]] static void refuse(const std::string& folder, const std::array<std::string, 6>& faces) {
     std::string missing;
