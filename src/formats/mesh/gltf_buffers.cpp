@@ -148,6 +148,32 @@ bool dropGltfFallbacks(json& root) {
   return changed;
 }
 
+bool dropDracoIndices(json& root) {
+  const auto meshes = root.find("meshes"), accessors = root.find("accessors");
+  const bool areLists =
+      meshes != root.end() && meshes->is_array() && accessors != root.end() && accessors->is_array();
+  if (!areLists) return false;
+  const auto isWithoutView = [&](const json& number) {
+    if (!number.is_number_unsigned() || number.get<std::uint64_t>() >= accessors->size()) return false;
+    const json& accessor = (*accessors)[number.get<std::size_t>()];
+    return accessor.is_object() && !accessor.contains("bufferView");
+  };
+  bool changed = false;
+  for (json& mesh : *meshes) {
+    const auto primitives = mesh.is_object() ? mesh.find("primitives") : mesh.end();
+    if (primitives == mesh.end() || !primitives->is_array()) continue;
+    for (json& primitive : *primitives) {
+      const bool isPacked = primitive.is_object() &&
+                            primitive.contains(json::json_pointer("/extensions/KHR_draco_mesh_compression"));
+      const auto indices = isPacked ? primitive.find("indices") : primitive.end();
+      if (indices == primitive.end() || !isWithoutView(*indices)) continue;
+      primitive.erase(indices);
+      changed = true;
+    }
+  }
+  return changed;
+}
+
 void checkGltfBuffers(const json& root, const Place& place) {
   const auto each = [&](const char* name, auto check) {
     const auto list = root.find(name);

@@ -149,8 +149,9 @@ tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, cons
   std::string changed;
   const bool isOld = isGltf1(json);
   if (isOld) json = upgradedGltf(json, place);
-  const bool hasPictures = plainGltfPictures(json), hasFallbacks = dropGltfFallbacks(json);
-  if (hasPictures || hasFallbacks || isOld) {
+  const bool hasPictures = plainGltfPictures(json), hasFallbacks = dropGltfFallbacks(json),
+             hasDraco = dropDracoIndices(json);
+  if (hasPictures || hasFallbacks || hasDraco || isOld) {
     changed = upgradedGltfFile(json, bytes);
     bytes = changed;
   }
