@@ -142,7 +142,7 @@ bool dropGltfFallbacks(json& root) {
     const json* said = extensionOf(buffer);
     const bool saysSo = said && said->value("fallback", json()) == true && !buffer.contains("uri");
     if (!saysSo && (isPlain[i] || !isPacked[i])) continue;
-    buffer = {{"byteLength", 1}, {"uri", "data:application/octet-stream;base64,AA=="}};
+    buffer = {{"byteLength", 1u}, {"uri", "data:application/octet-stream;base64,AA=="}};
     changed = true;
   }
   return changed;
