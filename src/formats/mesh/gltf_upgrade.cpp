@@ -330,7 +330,9 @@ std::string upgradedGltfFile(const json& upgraded, std::string_view bytes) {
   if (!bytes.starts_with("glTF") || bytes.size() < kHeader) return text;
   std::uint64_t length = 0;
   for (std::size_t i = 4; i-- > 0;) length = length << 8 | static_cast<unsigned char>(bytes[12 + i]);
-  const std::string_view body = bytes.substr(std::min<std::uint64_t>(bytes.size(), kHeader + length));
+  std::string_view body = bytes.substr(std::min<std::uint64_t>(bytes.size(), kHeader + length));
+  constexpr std::size_t kChunkHead = 8;  // of version 2, where the body is a chunk
+  if (bytes[4] != 1) body.remove_prefix(std::min(kChunkHead, body.size()));
   std::string chunks;
   append(chunks, text, "JSON", ' ');
   append(chunks, body, std::string_view("BIN\0", 4), '\0');
