@@ -10,9 +10,10 @@
 namespace trace {
 namespace {
 
-constexpr double kMiddle = 0.52;   // the mean of the values shown, 0 to 1: a little above middle grey in sRGB
-constexpr double kBright = 0.85;   // what the brightest are shown as at most, but for
-constexpr double kLights = 0.05;   // this share: lights and highlights
+constexpr double kMiddle = 0.52;  // the mean of the values shown, 0 to 1: a little above middle grey in sRGB
+constexpr double kBright = 0.85;  // what the brightest are shown as at most, but for
+constexpr double kLights = 0.05;  // this share: lights and highlights,
+constexpr double kLamp = 30;  // and what is so many times as bright as the middle one: lamps, however large
 constexpr double kMostStops = 30;  // up or down
 constexpr double kNothing = 1e-6;  // of the brightest: black, as far as an eye tells
 
@@ -38,17 +39,25 @@ Real exposureFor(const Picture& picture, const Development& development) {
   for (std::size_t i = 0; i < picture.pixels.size(); ++i)
     if (isFinite(picture.pixels[i]) && luminanceOf(picture.pixels[i]) > kNothing * most) lit.push_back(i);
   if (lit.empty() || development.tone == Tone::stretch) return 0;
-  const auto bright = lit.begin() + static_cast<std::ptrdiff_t>((1 - kLights) * (lit.size() - 1));
-  std::nth_element(lit.begin(), bright, lit.end(), [&](std::size_t a, std::size_t b) {
+  const auto darker = [&](std::size_t a, std::size_t b) {
     return luminanceOf(picture.pixels[a]) < luminanceOf(picture.pixels[b]);
+  };
+  const auto placeOf = [&](double share) {
+    return lit.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(lit.size() - 1));
+  };
+  const auto middle = placeOf(0.5), bright = placeOf(1 - kLights);
+  std::nth_element(lit.begin(), bright, lit.end(), darker);
+  std::nth_element(lit.begin(), middle, bright, darker);
+  const Color usual = picture.pixels[*middle] * kLamp;
+  const Color brightest = std::min(picture.pixels[*bright], usual, [](const Color& a, const Color& b) {
+    return luminanceOf(a) < luminanceOf(b);
   });
-  const Color brightest = picture.pixels[*bright];
   double low = -kMostStops, high = kMostStops;
   for (int i = 0; i < 40; ++i) {
-    const double middle = (low + high) / 2;
-    const bool dark = meanShown(picture, lit, development, middle) < kMiddle &&
-                      luminanceShown(brightest, development, middle) < kBright;
-    (dark ? low : high) = middle;
+    const double stops = (low + high) / 2;
+    const bool dark = meanShown(picture, lit, development, stops) < kMiddle &&
+                      luminanceShown(brightest, development, stops) < kBright;
+    (dark ? low : high) = stops;
   }
   return std::round(high * 100) / 100;
 }

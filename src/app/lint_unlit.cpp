@@ -19,9 +19,8 @@ void causticsMissing(const LintScene& s, Findings& findings) {
   if (!missing) return;
   const Place& place = s.scene.lights[missing->light].place;
   warn(findings, "caustics-missing", place,
-       "what " + quoted(s, missing->object) + " throws of " +
-           (place.line > 0 ? "this light" : "the light that Trace chose") +
-           " on other things is missing: " + missing->why,
+       quoted(s, missing->object) + " throws no bright spots (caustics) of " +
+           (place.line > 0 ? "this light: " : "the light that Trace chose: ") + missing->why,
        missing->hint);
 }
 

@@ -389,9 +389,8 @@ void warnOfMissingCaustics(const Scene& scene, const Settings& settings, const W
   if (!missing) return;
   const Place& place = scene.lights[missing->light].place;
   messages.warn(place,
-                (place.line > 0 ? "of this light, what " : "of the light that Trace chose, what ") +
-                    objectName(scene, missing->object) +
-                    " throws on other things is missing (its caustic): " + missing->why,
+                objectName(scene, missing->object) + " throws no bright spots (caustics) " +
+                    (place.line > 0 ? "of this light: " : "of the light that Trace chose: ") + missing->why,
                 missing->hint);
 }
 

@@ -161,6 +161,15 @@ class Parser {
         hint = "did you mean \"" + flag + "\"?";
         break;
       }
+    constexpr std::pair<std::string_view, std::string_view> kOthers[] = {
+        {"--out", "did you mean \"--output\"?"},
+        {"--outfile", "did you mean \"--output\"?"},
+        {"--verbose", "--log-level debug says more, --quiet less"},
+        {"--debug", "--log-level debug says more"},
+        {"--alpha", "pictures have no alpha; --passes writes what a compositor needs, such as depth"},
+        {"--without", "--disable takes one switch away"}};
+    for (const auto& [other, meant] : kOthers)
+      if (name == other) hint = meant;
     for (const Flag& flag : flags())
       if (name == "--" + std::string(flag.name)) hint = "it belongs to: " + namesOf(flag.commands);
     if (hint.empty()) hint = "ray --help all lists the flags";

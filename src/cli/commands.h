@@ -27,6 +27,7 @@ struct Command {
   int (*run)(const Arguments&, const Console&);
   /// The exit code when something goes wrong, if the command's codes are its own; else it is the Fault.
   int (*failed)(const Arguments&) = nullptr;
+  std::string_view output = {};  ///< what -o names, if the command has it; no full stop
 };
 
 /// In the order of Verb.

@@ -122,18 +122,19 @@ void change(Scene& scene, const Conversion& conversion, const Console& console) 
 }
 
 /// The scene of the file, at the moment that it chooses.
-Scene sceneToConvert(const std::string& in, const Conversion& conversion, Messages& messages) {
+Scene sceneToConvert(const std::string& in, const Arguments& arguments, Messages& messages) {
+  const Conversion& conversion = arguments.conversion;
   const Work work("reading the scene");
   const std::string bytes = readFile(in);
   constexpr int kAround = 64;  // by default
   if (conversion.revolve)
     return revolvedScene(in, bytes, conversion.steps > 0 ? conversion.steps : kAround, conversion.picture,
                          messages);
-  SceneAtMoment read = readSceneAtItsMoment(in, bytes, {}, messages);
+  SceneAtMoment read = readSceneAtItsMoment(in, bytes, arguments.choices, messages);
   if (read.changesWithTime)
     messages.warn(Place{.file = in},
                   "what changes with time is written as it is at " + toText(read.time) + " s",
-                  "settings { time = ...; } in the scene chooses another moment");
+                  "--time X chooses another moment");
   return std::move(read.scene);
 }
 
@@ -150,7 +151,7 @@ std::string convert(const std::string& in, const std::string& out, const Argumen
   checkDistinct(in, out);
   checkWritable(out);
   Messages messages;
-  Scene scene = sceneToConvert(in, conversion, messages);
+  Scene scene = sceneToConvert(in, arguments, messages);
   std::vector<NamedBytes> files;
   {
     const Work work("converting the scene");

@@ -1,8 +1,9 @@
 // ray diff A B: how far two pictures are apart, in numbers and as a picture.
 //
 // Keys of the JSON object: reference, test, width, height (of A), unit ("levels" or "values"), tolerance,
-// sameSize, identical, within (the limits), then each metric by name (null when infinite), worst.{x, y},
-// limits[] of {metric, limit, met}, difference (name of the picture written, or null).
+// means.{reference, test} (of each channel), sameSize, identical, within (the limits), then each metric by
+// name (null when infinite), worst.{x, y}, limits[] of {metric, limit, met}, difference (name of the picture
+// written, or null).
 #include <array>
 #include <cmath>
 #include <utility>
@@ -40,11 +41,29 @@ std::string sizeText(const Picture& picture) {
   return std::to_string(picture.width) + "x" + std::to_string(picture.height);
 }
 
-std::string colorText(const Color& c, bool levels) {
-  const auto text = [&](double channel) {
-    return levels ? toText(std::round(255 * channel)) : numberText(channel);
-  };
-  return "(" + text(c.r) + " " + text(c.g) + " " + text(c.b) + ")";
+std::string channelsText(const Color& c) {
+  return "(" + numberText(c.r) + " " + numberText(c.g) + " " + numberText(c.b) + ")";
+}
+
+std::string pixelText(const Color& c, bool levels) {
+  return channelsText(levels ? Color(std::round(255 * c.r), std::round(255 * c.g), std::round(255 * c.b))
+                             : c);
+}
+
+/// In the unit of the difference.
+Color meanOf(const LoadedPicture& picture, const PictureDifference& d) {
+  return meanColor(picture.picture) * (d.levels ? 255 : 1);
+}
+
+/// The one picture was made for a screen, and holds no light as the other does.
+void warnOfLevels(const PictureDifference& d, const Arguments& arguments, const Console& console) {
+  if (d.reference.levels == d.test.levels) return;
+  const std::string& shown = arguments.files[d.reference.levels ? 0 : 1];
+  const std::string& light = arguments.files[d.reference.levels ? 1 : 0];
+  console.line(LogLevel::warning,
+               "warning: " + printable(shown) + " holds levels of a screen, cut off at 1, and " +
+                   printable(light) +
+                   " light: they differ by tone and transfer curves too; compare two of one kind");
 }
 
 std::string diffText(const PictureDifference& d, const Arguments& arguments) {
@@ -55,14 +74,16 @@ std::string diffText(const PictureDifference& d, const Arguments& arguments) {
   const std::string size = " (" + sizeText(d.reference.picture) + ")\n";
   if (d.numbers.identical) return a + " and " + b + " are identical" + size;
   std::string text = a + " and " + b + " differ" + size;
+  text += "  means   " + channelsText(meanOf(d.reference, d)) + " and " + channelsText(meanOf(d.test, d)) +
+          " " + std::string(d.unit()) + "\n";
   for (const Metric& metric : metrics()) {
     text +=
         "  " + std::string(metric.name) + std::string(8 - metric.name.size(), ' ') + metricText(metric, d);
     if (metric.name == "max") {
       const int x = d.numbers.worstX, y = d.numbers.worstY;
       text += " at pixel " + std::to_string(x) + "," + std::to_string(y) + ": " +
-              colorText(d.reference.picture.at(x, y), d.levels) + " and " +
-              colorText(d.test.picture.at(x, y), d.levels);
+              pixelText(d.reference.picture.at(x, y), d.levels) + " and " +
+              pixelText(d.test.picture.at(x, y), d.levels);
     }
     if (metric.name == "beyond")
       text += " of the values differ by more than " + toText(d.tolerance) + " " + std::string(d.unit());
@@ -82,6 +103,10 @@ std::string diffJson(const PictureDifference& d, const Arguments& arguments) {
   json["height"] = d.reference.picture.height;
   json["unit"] = d.unit();
   json["tolerance"] = d.tolerance;
+  for (const auto& [name, picture] : {std::pair{"reference", &d.reference}, {"test", &d.test}}) {
+    const Color color = meanOf(*picture, d);
+    json["means"][name] = Json::list({color.r, color.g, color.b});
+  }
   json["sameSize"] = d.numbers.sameSize;
   json["identical"] = d.numbers.identical;
   json["within"] = within(d, arguments.limits);
@@ -114,6 +139,7 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
   const Work work("comparing the pictures");
   const PictureDifference d =
       difference(std::move(reference), std::move(test), {arguments.tolerance, arguments.pixelsPerDegree});
+  warnOfLevels(d, arguments, console);
   printResult(json                        ? diffJson(d, arguments)
               : arguments.printed.empty() ? diffText(d, arguments)
                                           : printed(d, arguments));

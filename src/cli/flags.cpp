@@ -178,10 +178,7 @@ void setOutput(Arguments& arguments, std::string_view value) {
 std::span<const Flag> flags() {
   static constexpr std::array kTable{
       Flag{"output", 'o', Takes::value, "FILE", "", kWithOutput, true,
-           "file to write; of a render, by default the scene's name with .png, in this folder; of diff a "
-           "picture of "
-           "the difference, of grade an HTML page, of selftest a certificate",
-           setOutput},
+           "the file to write; ray COMMAND --help says what it holds", setOutput},
       Flag{"frames", 0, Takes::value, "A-B", "", kRender, false,
            "render frames A to B of an animation, or A-B/N every Nth; the picture's name holds #### for the "
            "number; frames that are there already with the same settings are skipped, but for .bmp "
@@ -392,7 +389,7 @@ bool takesOptions(Verb command) { return command == Verb::gui || kOfScenes.has(c
 
 bool takesOption(Verb command, const Option& option) {
   const bool limit = option.name == "time-limit" || option.name == "max-memory";
-  const bool moment = option.name == "time" && command == Verb::expand;
+  const bool moment = option.name == "time" && (command == Verb::expand || command == Verb::convert);
   return takesOptions(command) || (limit && kWorking.has(command)) || moment;
 }
 

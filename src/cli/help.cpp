@@ -214,7 +214,8 @@ std::string helpText(const Command& command, bool all) {
   const std::string name(command.name);
   std::string text = entry(usageOf(command), std::string(command.help)) + "\nIts flags\n";
   for (const Flag& flag : flags())
-    if (flag.commands.has(command.verb)) text += entry(flagsOf(flag), std::string(flag.help));
+    if (flag.commands.has(command.verb))
+      text += entry(flagsOf(flag), std::string(flag.name == "output" ? command.output : flag.help));
   if (!takesOptions(command.verb)) {
     for (const Option& option : options())
       if (takesOption(command.verb, option)) text += optionEntry(option, all);

@@ -73,6 +73,11 @@ void checkOutputs(const Session& session, const std::string& output, const Conso
     console.line(LogLevel::warning, "warning: the region " + regionText(region) +
                                         " goes beyond the picture of " + pixelsText(size) + ": " +
                                         regionText({left.x0, left.y0, left.x1, left.y1}) + " is rendered");
+  const Settings& settings = session.settings();
+  if (const int taken = samplesOf(settings); taken > settings.spp && !subdivides(settings))
+    console.line(LogLevel::info, "note: --sampling " + std::string(generatorOf(settings).name) + " takes " +
+                                     std::to_string(taken) + " samples a pixel, the next square after " +
+                                     std::to_string(settings.spp) + "; --sampling sobol takes any number");
   for (const Output& file : outputs(output, session.settings()))
     checkEncodable(pictureFormatFor(file.path), size.width, size.height);
   checkPlaces(session, output);
@@ -139,9 +144,11 @@ void reportLosses(const Session& session, const RenderResult& result, const Cons
     const Size size = session.size();
     kept *= static_cast<double>(result.statistics.rays[static_cast<std::size_t>(RayKind::camera)]) /
             (static_cast<double>(size.width) * size.height);
-    char text[100];
-    std::snprintf(text, sizeof text, "note: --firefly-limit took away %.2g %% of the light",
-                  100 * removed / (removed + kept));
+    char text[120];
+    std::snprintf(
+        text, sizeof text,
+        "note: --firefly-limit took away %.2g %% of the light, all of it in bright specks; 0 keeps them",
+        100 * removed / (removed + kept));
     console.line(LogLevel::info, text);
   }
   if (const std::string doubt = brightnessDoubt(session.settings(), result.brightnessError); !doubt.empty())

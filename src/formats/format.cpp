@@ -169,9 +169,10 @@ FoundFormat formatOf(const std::string& file, std::string_view bytes, const char
   const std::string kind = kindOf(bytes);
   const bool isText = kind == "an empty file" || kind == "only white space" || kind == "other text";
   const bool lacksHeader = isText && isNamed && suffix == ".ray";
-  throw Error(
-      Fault::scene, Place{file, 0, 0, {}}, found + kind,
-      lacksHeader ? "the first line of a .ray file is: SBT-raytracer 1.1" : "formats Trace reads: " + known);
+  throw Error(Fault::scene, Place{file, 0, 0, {}}, found + kind,
+              lacksHeader
+                  ? "the first line of a .ray file is Trace 1, or SBT-raytracer 1.1 as the courses have it"
+                  : "formats Trace reads: " + known);
 }
 
 /// read(); if only the name told the format, errors say so.

@@ -127,22 +127,8 @@ Texture threshold(const Texture& grey, Real least) {
 }
 
 void cutOut(Material& material, const Texture& opacity, Real share) {
-  auto& phong = std::get<Phong>(material.model);
-  const auto weigh = [&](std::string_view field, const Color& otherwise, Color& constant) {
-    const bool isGlass = !isBlack(otherwise);
-    if (isBlack(constant) && !isGlass) return;
-    const Texture weighed = mixture(otherwise, isGlass ? constant : Color(1),
-                                    textureOf(material.textures, field), opacity, share);
-    setTexture(material.textures, field, weighed);
-    if (isGlass) constant = otherwise;
-  };
-  weigh("ambient", Color(0), phong.ambient);
-  weigh("diffuse", Color(0), phong.diffuse);
-  weigh("emissive", Color(0), phong.emissive);
-  weigh("reflective", Color(0), phong.reflective);
-  weigh("specular", Color(0), phong.specular);
-  weigh("transmissive", Color(1), phong.transmissive);
-  phong.index = 1;
+  material.opacity = share;
+  setTexture(material.textures, kOpacity, opacity);
 }
 
 }  // namespace trace

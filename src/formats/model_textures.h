@@ -46,9 +46,7 @@ Texture raised(const Texture& grey, Real from);
 /// 1 where the luminance of the texture is at least `least`, otherwise 0.
 Texture threshold(const Texture& grey, Real least);
 
-/// What lies behind the material is seen through it, without refraction: all that the surface does with light
-/// is weighted by `share` times the luminance of `opacity`, and what passes by the rest. Precondition: the
-/// model is Phong.
+/// `share` times the luminance of `opacity` of the surface is there.
 void cutOut(Material& material, const Texture& opacity, Real share = 1);
 
 }  // namespace trace

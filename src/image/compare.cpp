@@ -65,6 +65,12 @@ double distance(double a, double b) {
   return std::isnan(d) ? std::numeric_limits<double>::infinity() : d;
 }
 
+Color meanColor(const Picture& picture) {
+  Color sum;
+  for (const Color& color : picture.pixels) sum += color;
+  return picture.pixels.empty() ? sum : sum / static_cast<double>(picture.pixels.size());
+}
+
 void checkSameSize(const Picture& a, const Picture& b) {
   if (a.width != b.width || a.height != b.height)
     throw Error(Fault::usage, "pictures of one size expected, found " + sizeOf(a) + " and " + sizeOf(b));

@@ -39,6 +39,9 @@ Comparison compare(const Picture& a, const Picture& b, double tolerance = 0);
 /// |a - b|, where equal infinities and two NaN are equal and NaN is infinitely far from any number.
 double distance(double a, double b);
 
+/// The mean of all pixels; black if there are none.
+Color meanColor(const Picture& picture);
+
 /// Throws Error(Fault::usage) when the sizes differ.
 void checkSameSize(const Picture& a, const Picture& b);
 

@@ -227,7 +227,8 @@ bool Tracer::occluded(const Ray& ray, Real tMost, QueryCounts<Nodes>& counts) {
   crossed_.clear();
   const bool blackGlass = settings_.glassShadows == GlassShadows::black;
   if (world_.occluded(ray, tMost, facesSeenBy(RayKind::shadow), counts, [&](const Found& found) {
-        const bool ends = blackGlass && !(world_.opacityAt(ray, found) < 1);
+        const bool ends =
+            blackGlass && !(world_.opacityAt(ray, found) < 1) && !lightPasses(*world_.bsdfAt(ray, found));
         if (!ends) crossed_.push_back(found);
         return ends;
       }))
@@ -316,8 +317,7 @@ std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) con
   world_.crossings(ray, distance, facesSeenBy(RayKind::shadow), uncounted, [&](const Found& found) {
     const bool opaque = world_.opaque(found.object) ||
                         (!(world_.opacityAt(ray, found) < 1) &&
-                         (settings_.glassShadows == GlassShadows::black ||
-                          isBlack(world_.filter(ray, found)) || gathers(*world_.bsdfAt(ray, found))));
+                         (isBlack(world_.filter(ray, found)) || !lightPasses(*world_.bsdfAt(ray, found))));
     if (opaque && (!nearest || found.before(*nearest))) nearest = found;
     return false;
   });

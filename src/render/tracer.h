@@ -96,9 +96,11 @@ class Tracer {
 
   /// A RayTree takes the rays.
   bool records() const { return kRecords && tree_; }
-  /// Whether shadow rays pass such a surface.
+  /// Whether shadow rays pass such a surface. Panes bend nothing, and so none is lost there.
   bool lightPasses(const Bsdf& bsdf) const {
-    return whitted(bsdf).transmits() && !gathers(bsdf) && settings_.glassShadows != GlassShadows::black;
+    const WhittedTerms& terms = whitted(bsdf);
+    return terms.transmits() && !gathers(bsdf) &&
+           (terms.passage == Passage::straight || settings_.glassShadows != GlassShadows::black);
   }
   /// What fills the body that was hit, where its surface looks like `terms`.
   Filling filling(const Hit& hit, const WhittedTerms& terms) const {

@@ -1076,10 +1076,12 @@ const std::array kOptions{
              "glass mirrors what its material says, or the more the flatter it is looked at, by "
              "Schlick's approximation or by Fresnel's formula (exact), as then do clear layers of an index",
          .source = "Schlick 1994, University of Southern California; Fresnel 1823"}),
-    row<&Settings::glassShadows>({.name = "glass-shadows",
-                                  .group = "Conventions",
-                                  .help = "glass filters the light that passes it, or casts a black shadow",
-                                  .source = "black in Southern California"}),
+    row<&Settings::glassShadows>(
+        {.name = "glass-shadows",
+         .group = "Conventions",
+         .help = "glass filters the light that passes it, or casts a black shadow; panes that bend "
+                 "nothing always filter it",
+         .source = "black in Southern California"}),
     row<&Settings::backFaces>(
         {.name = "back-faces",
          .group = "Conventions",

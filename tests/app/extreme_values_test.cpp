@@ -3,7 +3,9 @@
 // or the picture is finite, and comes after work that a count bounds.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "app/lint.h"
 #include "app/scene_model.h"
@@ -191,7 +193,7 @@ std::vector<Shape> atItsMost(const ShapeType& type) {
   Shape most = typical(type);
   for (AnyField& field : most.editFields())
     if (int* const* count = std::get_if<int*>(&field.value); count && field.most > field.least)
-      **count = static_cast<int>(field.most);
+      **count = static_cast<int>(std::min<Real>(field.most, std::numeric_limits<int>::max()));
   std::vector<Shape> all{most};
   for (std::size_t field = 0; field < fieldsOf(most).size(); ++field)
     if (std::holds_alternative<EnumValue>(fieldsOf(most)[field].value))

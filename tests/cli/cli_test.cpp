@@ -155,6 +155,9 @@ TEST_F(Cli, EachCommandHasItsOwnHelp) {
     EXPECT_EQ(run({name, "-h"}).out, r.out);
     EXPECT_EQ(run({"help", name, "all"}).out, run({name, "--help", "all"}).out);
     for (const cli::Flag& flag : cli::flags()) {
+      if (flag.name == "output") {
+        EXPECT_EQ(flag.commands.has(command.verb), !command.output.empty()) << name << " says what -o names";
+      }
       const bool told = r.out.find("--" + std::string(flag.name)) != std::string::npos;
       EXPECT_TRUE(told || !flag.commands.has(command.verb)) << name << " " << flag.name;
     }
@@ -236,6 +239,16 @@ TEST_F(Cli, AloneAndGuiAreTheStudio) {  // without a display, or without the stu
   EXPECT_EQ(run({"gui", "-w", "wide"}).code, 2);
 }
 
+TEST_F(Cli, AGridSaysThatItTakesASquareNumberOfSamples) {
+  EXPECT_TRUE(
+      contains(run({"white.ray", "a.png", "-w", "8", "--spp", "7"}).err,
+               "takes 9 samples a pixel, the next square after 7; --sampling sobol takes any number"));
+  for (const char* fits : {"--spp=9", "--spp=1"})
+    EXPECT_FALSE(contains(run({"white.ray", "a.png", "-w", "8", fits}).err, "the next square"));
+  EXPECT_FALSE(contains(run({"white.ray", "a.png", "-w", "8", "--spp", "7", "--sampling", "sobol"}).err,
+                        "the next square"));
+}
+
 TEST_F(Cli, WrongUsageIs2) {
   const auto refused = [&](std::vector<std::string> words, const std::string& why) {
     const Run r = run(std::move(words));
@@ -246,6 +259,10 @@ TEST_F(Cli, WrongUsageIs2) {
   };
   refused({"--widht", "40", "white.ray"}, "did you mean \"--width\"?");
   refused({"--widht=40", "white.ray"}, "unknown flag \"--widht\"");
+  refused({"--gamma", "white.ray"}, "did you mean \"--transfer\"?");
+  refused({"--preview", "white.ray"}, "did you mean \"--quality\"?");
+  refused({"--out=a.png", "white.ray"}, "did you mean \"--output\"?");
+  refused({"--verbose", "white.ray"}, "--log-level debug says more");
   refused({"-x", "white.ray"}, "unknown flag \"-x\"");
   refused({"-5", "white.ray"}, "unknown flag \"-5\"");
   refused({"--markdown", "white.ray"}, "it belongs to: convert, texture, features");

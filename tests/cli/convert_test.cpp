@@ -182,6 +182,9 @@ TEST_F(Convert, TakesTheMomentThatTheSceneChooses) {
   EXPECT_TRUE(test::contains(converted.err, "what changes with time is written as it is at 2 s"))
       << converted.err;
   EXPECT_TRUE(test::contains(read("still.ray"), "translate(0.5, 0, 0")) << read("still.ray");
+  EXPECT_TRUE(
+      test::contains(run({"convert", "moving.ray", "later.ray", "--time", "1"}).err, "as it is at 1 s"));
+  EXPECT_TRUE(test::contains(read("later.ray"), "translate(0.25, 0, 0")) << read("later.ray");
 }
 
 TEST_F(Convert, SaysWhatItCannotDo) {

@@ -74,6 +74,23 @@ TEST_F(Diff, SaysHowFarAndWritesThePicture) {
       contains(run({"diff", "a.png", "c.png", "--print", "maxx"}).err, "--print: expected one of max"));
 }
 
+TEST_F(Diff, MeansAreTold) {
+  EXPECT_TRUE(
+      contains(run({"diff", "a.png", "c.png"}).out, "means   (127 127 127) and (153 153 153) levels"));
+  const json both = json::parse(run({"diff", "a.png", "c.png", "--format", "json"}).out)["means"];
+  EXPECT_NEAR(both["reference"][0].get<double>(), 127, 1e-9);
+  EXPECT_NEAR(both["test"][2].get<double>(), 153, 1e-9);
+}
+
+TEST_F(Diff, LevelsBesideLightGetAWarning) {
+  picture("light.exr", 0.5);
+  const Run mixed = run({"diff", "light.exr", "a.png"});
+  EXPECT_TRUE(contains(mixed.err, "a.png holds levels of a screen, cut off at 1, and light.exr light"))
+      << mixed.err;
+  EXPECT_TRUE(contains(mixed.out, "values"));
+  EXPECT_EQ(run({"diff", "light.exr", "light.exr"}).err, "");
+}
+
 TEST_F(Diff, Json) {
   const json same = json::parse(run({"diff", "a.png", "b.png", "--format", "json"}).out);
   EXPECT_EQ(same["identical"], true);

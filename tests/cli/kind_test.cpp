@@ -114,10 +114,13 @@ TEST(AutomaticExposure, BringsTheMeanToTheMiddleAndKeepsBrightParts) {
   Picture picture(20, 10);
   for (Color& c : picture.pixels) c = Color(0.01);
   EXPECT_NEAR(shown(Color(0.01), exposureFor(picture, development)), 0.52, 0.01);
-  for (int x = 0; x < 20; ++x) picture.at(x, 4) = Color{2, 0.2, 0.2};  // a tenth, red
+  const Color red{0.8, 0.08, 0.08};
+  for (int x = 0; x < 20; ++x) picture.at(x, 4) = red;  // a tenth
   const Real stops = exposureFor(picture, development);
-  EXPECT_NEAR(shown(Color{2, 0.2, 0.2}, stops), 0.85, 0.02);
+  EXPECT_NEAR(shown(red, stops), 0.85, 0.02);
   EXPECT_LT(shown(Color(0.01), stops), 0.5);
+  for (int x = 0; x < 20; ++x) picture.at(x, 4) = Color(40);  // a lamp that is seen makes nothing else black
+  EXPECT_NEAR(shown(Color(0.3), exposureFor(picture, development)), 0.85, 0.02);
   for (Color& c : picture.pixels) c = Color(0);
   EXPECT_EQ(exposureFor(picture, development), 0);
   picture.at(3, 3) = Color(0.1);  // on black, what is seen counts
@@ -170,6 +173,16 @@ TEST(KindDefaults, AnglesAreInDegrees) {
 TEST(KindDefaults, AGroundIsLevel) {
   const Affine place = placeOf("Trace 1\nplane { }\nsphere { }");
   EXPECT_EQ(linear(place, {0, 0, 1}), (Vec3{0, 1, 0}));
+}
+
+TEST(KindDefaults, WordsOfPovRayAreTranslated) {
+  EXPECT_TRUE(contains(errorOf("Trace 1\nlight_source { }"), "point_light {"));
+  EXPECT_TRUE(contains(errorOf("Trace 1\ncube { }"), "box { }"));
+  EXPECT_TRUE(contains(errorOf("Trace 1\nsphere { center = (0, 1, 0); }"), "translate("));
+  EXPECT_TRUE(contains(errorOf("Trace 1\nplane { normal = (0, 1, 0); }"), "rotate x -90 deg"));
+  EXPECT_TRUE(contains(errorOf("Trace 1\nsphere { material = gold }"), "library = gold"));
+  EXPECT_TRUE(contains(errorOf("Trace 1\nsphere { pigment = red; }"), "diffuse ="));
+  EXPECT_TRUE(contains(errorOf("Trace 1\nsphere { material = { diffuse = White; } }"), "(1, 1, 1) is white"));
 }
 
 TEST(KindDefaults, UnknownWordsAreErrors) {

@@ -71,14 +71,21 @@ class Program {
     return text.substr(text.rfind('\n') + 1);
   }
 
-  /// Waits until stderr contains the text; false after a minute, or when the program has ended without it.
-  bool says(const std::string& text) {
+  /// Waits until stderr contains the text so many times; false after a minute, or when the program has ended
+  /// without it.
+  bool says(const std::string& text, int times = 1) {
+    const auto said = [&] {
+      const std::string all = err();
+      int count = 0;
+      for (std::size_t at = 0; (at = all.find(text, at)) != std::string::npos; at += text.size()) ++count;
+      return count >= times;
+    };
     for (int i = 0; i < 6000; ++i) {
-      if (err().find(text) != std::string::npos) return true;
+      if (said()) return true;
       siginfo_t state{};
       if (::waitid(P_PID, static_cast<id_t>(child_), &state, WEXITED | WNOHANG | WNOWAIT) == 0 &&
           state.si_pid == child_)
-        return err().find(text) != std::string::npos;
+        return said();
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
     return false;

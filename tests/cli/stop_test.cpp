@@ -324,7 +324,10 @@ TEST_F(Stop, NothingIsLeftOfWhatWasBeingWritten) {
 }
 
 TEST_F(Stop, JsonProgress) {
-  Program program(folder(), longRender({"--time-limit", "1.5"}));
+  constexpr int kLines = 4;
+  Program program(folder(), longRender({}));
+  EXPECT_TRUE(program.says("\"elapsed\"", kLines));
+  program.kill(SIGINT);
   program.wait();
   std::istringstream lines(program.err());
   int count = 0;
@@ -339,7 +342,7 @@ TEST_F(Stop, JsonProgress) {
     last = object["elapsed"];
     ++count;
   }
-  EXPECT_GE(count, 4);
+  EXPECT_GE(count, kLines);
 }
 
 TEST_F(Stop, PlainProgressInALog) {
@@ -369,7 +372,9 @@ translate(key((0, 0), (1, 1)), 1, 0, sphere { material = { diffuse = (1, 1, 1); 
 }
 
 TEST_F(Stop, BarIfAskedFor) {
-  Program program(folder(), longRender({"--time-limit", "1.5", "--progress=bar"}), {{"COLUMNS", "60"}});
+  Program program(folder(), longRender({"--progress=bar"}), {{"COLUMNS", "60"}});
+  EXPECT_TRUE(program.says("elapsed")) << program.err();
+  program.kill(SIGINT);
   program.wait();
   EXPECT_TRUE(contains(program.err(), "\r"));
   EXPECT_TRUE(contains(program.err(), "elapsed"));

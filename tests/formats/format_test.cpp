@@ -36,7 +36,8 @@ TEST(Format, SaysWhatAFileIsThatIsNoScene) {
     formats += (formats.empty() ? "" : ", ") + std::string(format.name);
   const auto hintFor = [&](std::string_view kind) {
     const bool isText = kind == "an empty file" || kind == "only white space" || kind == "other text";
-    return isText ? "the first line of a .ray file is: SBT-raytracer 1.1" : "formats Trace reads: " + formats;
+    return isText ? "the first line of a .ray file is Trace 1, or SBT-raytracer 1.1 as the courses have it"
+                  : "formats Trace reads: " + formats;
   };
   for (const auto& [bytes, kind] : cases)
     EXPECT_EQ(errorsOfFile(bytes), std::string("0:0: named .ray, but ") +

@@ -15,9 +15,11 @@ using nlohmann::json;
 using test::Square;
 
 /// The corners of all squares in the world, in the order of the file.
-std::vector<Vec3> cornersAt(const Square& square, double time, std::string* told = nullptr) {
+std::vector<Vec3> cornersAt(const Square& square, double time, std::string* told = nullptr,
+                            bool binary = false) {
   Messages messages;
-  const Scene scene = readScene("a.gltf", square.text(), messages, time);
+  const Scene scene =
+      readScene(binary ? "a.glb" : "a.gltf", binary ? square.glb() : square.text(), messages, time);
   std::vector<Vec3> corners;
   for (const Object& object : scene.objects)
     for (const Vec3f& point : object.shape.as<Mesh>()->data->points)
@@ -158,6 +160,16 @@ TEST(GltfPose, WhatIsWrongIsAnError) {
       errorOf(animated("translation", {1, 2, 3, 4, 5, 6}, 3, "LINEAR")
                   .set("/animations/0/channels/0/sampler", 7)),
       "animations[0].channels[0].sampler: expected a number of one of its samplers; no animation is played");
+}
+
+TEST(GltfFile, ABinaryOneThatIsWrittenAnewKeepsItsBody) {
+  const std::vector<Vec3> corners = cornersAt(Square(), 0);
+  const Square broken = animated("translation", {1, 2, 3, 4, 5, 6}, 3, "LINEAR")
+                            .set("/animations/0/channels/0/sampler", 7);  // the animation is left out
+  Square picture;
+  const std::string uri = picture.root["images"][0]["uri"];
+  picture.set("/images/0/uri", "data:image/x-portable;base64," + uri.substr(uri.find(',') + 1));
+  for (const Square& square : {broken, picture}) expectCorners(cornersAt(square, 0, nullptr, true), corners);
 }
 
 }  // namespace

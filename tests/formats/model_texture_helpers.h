@@ -65,6 +65,11 @@ struct Read {
     return texture(field, object)
         .at({.point = {}, .uv = uv, .uvX = {}, .uvY = {}, .pointX = {}, .pointY = {}});
   }
+  /// How much of the surface is there at a place.
+  Real opacityAt(const Vec2& uv, std::size_t object = 0) const {
+    const Real even = material(object).opacity;
+    return textureOf(material(object).textures, kOpacity) ? even * luminance(at(kOpacity, uv, object)) : even;
+  }
   /// The field at a place, its constant and its texture.
   Phong phongAt(const Vec2& uv, std::size_t object = 0) const {
     Phong phong = std::get<Phong>(material(object).model);

@@ -77,13 +77,13 @@ TEST_F(ObjTextures, NamesOfOtherMachines) {
 
 TEST_F(ObjTextures, TransparencyCutsHoles) {
   const Read byAlpha = read("map_Kd a.tga", picture(true));
-  EXPECT_EQ(byAlpha.phongAt(kTopLeft).transmissive, Color(0));
-  EXPECT_EQ(byAlpha.phongAt(kTopRight).transmissive, kWhite);
-  EXPECT_NEAR(byAlpha.phongAt(kBottomRight).diffuse.r, 0.2, 1e-9);
+  EXPECT_EQ(byAlpha.opacityAt(kTopLeft), 1);
+  EXPECT_EQ(byAlpha.opacityAt(kTopRight), 0);
+  EXPECT_NEAR(byAlpha.opacityAt(kBottomRight), 0.2, 1e-9);
+  EXPECT_EQ(byAlpha.phongAt(kBottomRight).diffuse, kWhite) << "a hole takes nothing from the colours";
   const Read byMap = read("Kd 1 1 1\nmap_d a.tga");
-  EXPECT_NEAR(byMap.phongAt(kTopLeft).transmissive.r, 1 - 0.299, 1e-9) << "its luminance";
-  EXPECT_EQ(byMap.phongAt(kBottomRight).transmissive, Color(0));
-  EXPECT_EQ(read("Kd 1 1 1\nNi 1.5\nmap_d a.tga").phongAt(kTopLeft).index, 1) << "a hole does not bend light";
+  EXPECT_NEAR(byMap.opacityAt(kTopLeft), luminance(kRed), 1e-9);
+  EXPECT_EQ(byMap.opacityAt(kBottomRight), 1);
   EXPECT_EQ(read("map_Kd a.tga").material().textures.size(), 1u) << "an opaque picture makes none";
 }
 
@@ -160,7 +160,7 @@ TEST(VrmlTextures, PixelsStandUpright) {
   EXPECT_EQ(read.phongAt(kTopLeft).diffuse, kRed) << "a coloured picture takes the place of the colour";
   const Read grey("a.wrl", shape("texture PixelTexture { image 1 2 2 0x80FF 0xFF00 }"));
   EXPECT_NEAR(grey.phongAt({0.5, 0.25}).diffuse.r, 0.5 * 128 / 255, 1e-9) << "a grey one is multiplied";
-  EXPECT_EQ(grey.phongAt({0.5, 0.75}).transmissive, kWhite) << "its alpha cuts holes";
+  EXPECT_EQ(grey.opacityAt({0.5, 0.75}), 0) << "its alpha cuts holes";
   EXPECT_EQ(Read("a.wrl", shape("texture PixelTexture { " + kImage + " repeatS FALSE }"))
                 .at("diffuse", {1.25, 0.75}),
             kGreen);

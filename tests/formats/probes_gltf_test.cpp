@@ -74,7 +74,7 @@ TEST(Probes, OfGltf) {
                            .set("/meshes/1", {{"primitives", json::array()}});
   const auto mode = [&](int number) {
     Square square = plain;
-    square.root["meshes"][1]["primitives"] = {square.primitive()};
+    square.root["meshes"][1]["primitives"] = json::array({square.primitive()});
     square.root["meshes"][1]["primitives"][0]["mode"] = number;
     return square;
   };

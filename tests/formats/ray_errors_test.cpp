@@ -114,7 +114,9 @@ TEST(RayErrors, NamePlaceExpectedAndFound) {
        "2:1: directional_light: expected a direction, found one of length 0"},
       {"ambient_light { }", "2:1: ambient_light: expected a color"},
       {"point_light { position = (0, 0, 0); colour = red; }",
-       "2:46: color: expected (red, green, blue), found \"red\""},
+       "2:46: color: expected (red, green, blue), found \"red\" [(1, 1, 1) is white, and #ff8000, as on web "
+       "pages, "
+       "orange]"},
       // meshes
       {"polymesh { points = 5 }", "2:21: points: expected a list ( ... ), found 5"},
       {"polymesh { points = ((0,0,0), (1,1)) }", "2:31: point 1: expected (x, y, z), found (1,1)"},
@@ -189,7 +191,8 @@ TEST(RayErrors, ShowTheLine) {
     EXPECT_EQ(std::string(error.what()),
               "dir/a.ray:3:25: error: diffuse: expected (red, green, blue), found \"red\"\n"
               "  \tmaterial = { diffuse = red }\n"
-              "  \t                       ^\n");
+              "  \t                       ^\n"
+              "  hint: (1, 1, 1) is white, and #ff8000, as on web pages, orange\n");
   }
 }
 

@@ -278,6 +278,10 @@ TEST(RayLanguage, ErrorsNameThePlaceAndWhatLedThere) {
       {"camera { fov = 40 deg; } sphere { }",
        "2:16: fov: expected a number of degrees, found 40 deg [write it without deg, which makes radians]"},
       {"color = #ffb", "2:9: expected six hexadecimal digits after #, as in #ffb347"},
+      {"#include \"colors.inc\"",
+       "2:1: expected six hexadecimal digits after #, as in #ffb347 [Trace has include \"file.ray\", let a = "
+       "1 "
+       "and define f(a) { }, without #]"},
   };
   for (const auto& [text, expected] : rows) {
     const std::string found = errorsOf(text);

@@ -246,6 +246,24 @@ TEST(LightTruth, APaneTakesNoSunlightFromFogBehindIt) {
   }
 }
 
+TEST(LightTruth, APaneThatBendsNothingPassesLightWhereGlassHasBlackShadows) {
+  Principled sheet;
+  sheet.transmission = 1;
+  for (const MaterialModel& model : {MaterialModel(ThinGlass{}), MaterialModel(sheet)})
+    for (const auto& [kind, light] : lightsOfEveryKind())
+      for (const IntegratorKind by : {IntegratorKind::whitted, IntegratorKind::path, IntegratorKind::bdpt}) {
+        SCOPED_TRACE(kind);
+        Material pane;
+        pane.model = model;
+        const Scene scene = belowSheets(pane, light, 1);
+        Settings settings = settingsOf(by, 4);
+        const Picture filtered = picture(scene, settings);
+        settings.glassShadows = GlassShadows::black;
+        EXPECT_EQ(picture(scene, settings), filtered);
+        EXPECT_GT(mean(filtered), 0);
+      }
+}
+
 TEST(LightTruth, AMattPaneSpreadsNoLightToItsOtherSide) {
   Scene scene = floorScene();
   addPanel(scene, 1.5, false);

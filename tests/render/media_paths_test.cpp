@@ -150,9 +150,9 @@ TEST(MediaPaths, PhotonsShowWhatPathShows) {
   // Within the blur of their maps: near walls a part of the ball in which photons are counted is empty.
   constexpr Real kBlur = 0.03;
   for (const Place& place : places()) {
-    Settings photons = settingsOf(IntegratorKind::photon, 200);
-    photons.photons = 100000;
-    const Agreement found = agreementOf(place, settingsOf(IntegratorKind::path, 400), photons, 4);
+    Settings photons = settingsOf(IntegratorKind::photon, 50);
+    photons.photons = 50000;
+    const Agreement found = agreementOf(place, settingsOf(IntegratorKind::path, 200), photons, 4);
     EXPECT_LT(std::abs(found.meanB - found.meanA), kBlur * found.meanA + 3 * found.error)
         << place.name << ": " << found.meanB << ", not " << found.meanA;
   }

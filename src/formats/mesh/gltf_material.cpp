@@ -100,7 +100,7 @@ class Painted {
     put(kDiffuse, base);
     textureMirror(material_, "specular", phong()->specular, Color(0.2), m_, base);
     textureMirror(material_, "reflective", phong()->reflective, Color(0.04), m_, base);
-    if (m_.transmission > 0 && evenOpacity(m_) == 1) put("transmissive", base);
+    if (m_.transmission > 0) put("transmissive", base);
   }
 
   /// As much less is scattered as passes.
@@ -114,8 +114,8 @@ class Painted {
       setTexture(node.inputs, "amount", passes);
       put(field, Texture(std::move(node)));
     }
-    phong()->diffuse = m_.baseColor * ((1 - m_.metallic) * evenOpacity(m_));
-    phong()->ambient = m_.baseColor * evenOpacity(m_);
+    phong()->diffuse = m_.baseColor * (1 - m_.metallic);
+    phong()->ambient = m_.baseColor;
     const Texture* base = textureOf(material_.textures, "transmissive");
     put("transmissive", base ? product(*base, passes) : passes);
   }
@@ -143,9 +143,8 @@ class Painted {
     std::get<Principled>(material_.model).roughness = 1;
   }
 
-  /// Phong's model lets light through in the way that older formats have.
   void paintHoles() {
-    if (!phong()) material_.opacity = evenOpacity(m_);
+    material_.opacity = evenOpacity(m_);
     if (!m_.hasAlphaMap) return;
     const bool blends = m_.alpha == Alpha::blend;
     const Texture alpha = channelOf(*m_.baseColorMap, Channel::alpha);
@@ -153,10 +152,7 @@ class Painted {
                                    : threshold(alpha, m_.opacity > 0  ? m_.cutoff / m_.opacity
                                                       : m_.cutoff > 0 ? 2
                                                                       : 0);
-    const Real share = blends ? m_.opacity : 1;
-    if (phong()) return cutOut(material_, opacity, share);
-    put(kOpacity, opacity);
-    material_.opacity = share;
+    cutOut(material_, opacity, blends ? m_.opacity : 1);
   }
 
   const MetallicRoughness& m_;

@@ -120,17 +120,17 @@ MaterialModel modelOf(const MetallicRoughness& m) {
 }
 
 Phong toPhong(const MetallicRoughness& m) {
-  const double polish = polishOf(m), opacity = evenOpacity(m);
+  const double polish = polishOf(m);
   const double alpha = m.roughness * m.roughness;  // of the distribution, by the specification
   Phong phong;
-  phong.diffuse = m.baseColor * ((1 - m.metallic) * (1 - m.transmission) * opacity);
+  phong.diffuse = m.baseColor * ((1 - m.metallic) * (1 - m.transmission));
   // Metals have no diffuse light to give back; without some ambient light a rough one would be black.
-  phong.ambient = m.baseColor * ((1 - m.transmission) * opacity);
+  phong.ambient = m.baseColor * (1 - m.transmission);
   phong.specular = lerp(m.metallic, Color(0.2), m.baseColor) * polish;
   phong.reflective = lerp(m.metallic, Color(0.04), m.baseColor) * polish;
   phong.emissive = m.emissive;
   phong.shininess = std::clamp(alpha > 0 ? 2 / (alpha * alpha) - 2 : 10000.0, 1.0, 10000.0);
-  phong.transmissive = m.baseColor * (m.transmission * (1 - m.metallic) * opacity) + Color(1 - opacity);
+  phong.transmissive = m.baseColor * (m.transmission * (1 - m.metallic));
   phong.index = m.transmission > 0 && m.solid ? m.index : 1;
   if (m.transmission > 0) fill(phong, m);
   return phong;

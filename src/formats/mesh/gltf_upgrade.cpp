@@ -328,11 +328,15 @@ std::string upgradedGltfFile(const json& upgraded, std::string_view bytes) {
   constexpr std::size_t kHeader = 20;
   const std::string text = upgraded.dump(-1, ' ', false, json::error_handler_t::replace);
   if (!bytes.starts_with("glTF") || bytes.size() < kHeader) return text;
-  std::uint64_t length = 0;
-  for (std::size_t i = 4; i-- > 0;) length = length << 8 | static_cast<unsigned char>(bytes[12 + i]);
-  std::string_view body = bytes.substr(std::min<std::uint64_t>(bytes.size(), kHeader + length));
-  constexpr std::size_t kChunkHead = 8;  // of version 2, where the body is a chunk
-  if (bytes[4] != 1) body.remove_prefix(std::min(kChunkHead, body.size()));
+  const auto numberAt = [&](std::size_t at) {
+    std::uint64_t number = 0;
+    for (std::size_t i = 4; i-- > 0;) number = number << 8 | static_cast<unsigned char>(bytes[at + i]);
+    return number;
+  };
+  std::string_view body = bytes.substr(std::min<std::uint64_t>(bytes.size(), kHeader + numberAt(12)));
+  constexpr std::size_t kChunkHead = 8;  // its length and kind, in version 2
+  if (numberAt(4) > 1 && body.size() >= kChunkHead)
+    body = body.substr(kChunkHead, numberAt(bytes.size() - body.size()));
   std::string chunks;
   append(chunks, text, "JSON", ' ');
   append(chunks, body, std::string_view("BIN\0", 4), '\0');

@@ -176,11 +176,7 @@ void addTextures(const tinyobj::material_t& mtl, const MtlPictures& pictures, Ma
     opacity.channel = Channel::alpha;
   else if (!own)
     return;
-  const Texture holes = TextureNode{.model = std::move(opacity)};
-  if (phong)
-    cutOut(material, holes);
-  else
-    setTexture(material.textures, kOpacity, holes);
+  cutOut(material, TextureNode{.model = std::move(opacity)}, material.opacity);
 }
 
 bool isSound(const Material& material) {

@@ -107,7 +107,9 @@ bool read(Findings& findings, std::string_view name, const Item& value, Color& t
     n[0] = n[1] = n[2] = value.number();  // a grey
   else if (!numbers(value, n, 3)) {
     findings.expected(value, name, "(red, green, blue)",
-                      value.is(Kind::call) ? didYouMean(value.key(), textureKinds()) : "");
+                      value.is(Kind::call)   ? didYouMean(value.key(), textureKinds())
+                      : value.is(Kind::word) ? "(1, 1, 1) is white, and #ff8000, as on web pages, orange"
+                                             : "");
     return false;
   }
   to = {n[0], n[1], n[2]};

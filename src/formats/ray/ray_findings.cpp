@@ -19,8 +19,8 @@ constexpr std::array<std::string_view, 23> kRelatives{
 /// This many warnings show their line and a hint; a flood of others does without.
 constexpr std::size_t kFullWarnings = 50;
 
-/// What Trace has for words of others.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kInstead{{
+/// What Trace has for words of others: of courses, and of POV-Ray.
+constexpr std::pair<std::string_view, std::string_view> kInstead[]{
     {"csg", "Trace has union, intersection and difference, as in difference { box { } sphere { } }"},
     {"metaball", "Trace has metaballs { threshold = 0.5; balls = ((x, y, z, radius, strength), ...); }"},
     {"hyperbolic", "Trace has hyperboloid { } and two_sheets { }"},
@@ -29,7 +29,20 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kInstead{
     {"shape_light",
      "Trace has warn_light { }, with a cone and flaps, and projector_light { }, with a picture"},
     {"skybox", "Trace has settings { environment = \"folder\"; }, six pictures all around"},
-}};
+    {"light_source", "Trace has point_light { position = (2, 4, 3); color = (1, 1, 1); }"},
+    {"light", "Trace has point_light { }, directional_light { }, spot_light { } and rectangle_light { }"},
+    {"cube", "Trace has box { }, of side 1 around the origin"},
+    {"center", "translate(x, y, z) { sphere { } } puts it there"},
+    {"centre", "translate(x, y, z) { sphere { } } puts it there"},
+    {"pigment", "Trace has diffuse = (red, green, blue); in a material"},
+    {"finish", "Trace has specular, shininess and reflective in a material"},
+    {"interior", "Trace has transmissive and index in a material"},
+    {"location", "Trace has position = (x, y, z);"},
+    {"merge", "Trace has union { }"},
+    {"normal",
+     "rotate x -90 deg { plane { } } is a floor; bump = texture(noise { }, 0.1) in a material bends normals"},
+    {"object", "Trace places any object itself: translate(x, y, z) { sphere { } }"},
+};
 
 /// Words of other languages by which a file says that more of the scene stands elsewhere, or is to be
 /// computed. Nobody knows how much of the picture is lost without them, so they are errors.
@@ -48,6 +61,12 @@ std::string_view insteadOf(std::string_view kind) {
   for (const auto& [word, hint] : kInstead)
     if (word == kind) return hint;
   return {};
+}
+
+/// For a word that is not known.
+std::string meant(std::string_view word, std::span<const std::string_view> known) {
+  const std::string_view instead = insteadOf(word);
+  return instead.empty() ? didYouMean(word, known) : std::string(instead);
 }
 
 /// For a field that is like no other: all there are, if they are few.
@@ -133,16 +152,14 @@ bool Findings::refuse(std::string_view kind, const Item& at) {
 void Findings::notRendered(std::string_view kind, const Item& node, std::string text,
                            std::span<const std::string_view> known) {
   if (refuse(kind, node)) return;
-  if (isOfKind())
-    return error(node, quotedStart(kind) + " is not known",
-                 isRelative(kind) ? std::string(insteadOf(kind)) : didYouMean(kind, known));
+  if (isOfKind()) return error(node, quotedStart(kind) + " is not known", meant(kind, known));
   scene_.unrendered.push_back({std::string(kind), syntax_.shortPlace(node.offset()), std::move(text)});
   const std::string key = "not rendered: " + std::string(kind);
   if (again(key)) return;
   if (isRelative(kind))
     add(key, node, quotedStart(kind) + " is not rendered yet", std::string(insteadOf(kind)));
   else
-    add(key, node, quotedStart(kind) + " is not known and is left out", didYouMean(kind, known));
+    add(key, node, quotedStart(kind) + " is not known and is left out", meant(kind, known));
 }
 
 void Findings::unknownField(std::string_view owner, const Item& field,
@@ -152,8 +169,8 @@ void Findings::unknownField(std::string_view owner, const Item& field,
   const std::string key = "unknown field: " + std::string(owner) + "." + std::string(name);
   if (!isOfKind() && again(key)) return;
   std::string hint;
-  if (warnings_.size() < kFullWarnings) hint = didYouMean(name, known);
-  if (owner == "sphere" && name == "radius") hint = "scale(2, sphere { }) makes it twice as large";
+  if (warnings_.size() < kFullWarnings) hint = meant(name, known);
+  if (owner == "sphere" && name == "radius") hint = "scale(2) { sphere { } } makes it twice as large";
   if (warnings_.size() < kFullWarnings && hint.empty()) hint = allOf(known);
   if (isOfKind())
     return error(field, std::string(owner) + " has no field " + quotedStart(name), std::move(hint));

@@ -94,6 +94,9 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
     std::vector<std::string_view> names;
     for (const auto& [name, material] : named_) names.push_back(name);
     std::string hint = didYouMean(value.text(), names);
+    const std::vector<std::string_view> library = libraryNames();
+    if (std::find(library.begin(), library.end(), value.text()) != library.end())
+      hint = "{ library = " + std::string(value.text()) + " } takes it from the library";
     if (hint.empty()) hint = "a material is named before its first use: material = { name = foo; ... }";
     findings_.error(value, "expected the name of a material, found " + describe(value), std::move(hint));
     return inherited;
@@ -243,9 +246,12 @@ void Materials::unknownField(const Block& block, const Item& field) {
       return findings_.unknownField(Material::kKeyword, field,
                                     keywords<Model>({"name", "bump", kOpacity, "displacement",
                                                      "displacement_levels", kModel, kLibrary}));
-    findings_.warn(field,
-                   "unknown field \"" + std::string(key) +
-                       "\" of material is ignored: it is one of model = " + list(having, "or"),
+    const std::string of = "it is one of model = " + list(having, "or");
+    if (findings_.isOfKind())
+      return findings_.error(
+          field, "a Phong material has no field \"" + std::string(key) + "\": " + of,
+          key == kColor ? "diffuse = (red, green, blue) is its colour" : "say which model, before the field");
+    findings_.warn(field, "unknown field \"" + std::string(key) + "\" of material is ignored: " + of,
                    "say which model, before the field");
   });
 }
@@ -257,7 +263,7 @@ void Materials::fromLibrary(Block& block, const Item& value) {
   const std::optional<Material> found = libraryMaterial(name);
   if (!found) {
     std::string hint = didYouMean(name, libraryNames());
-    if (hint.empty()) hint = "docs/library.md and docs/indices.md list them, as in library = water";
+    if (hint.empty()) hint = "ray materials lists them; diffuse = (red, green, blue) makes a colour";
     findings_.error(value, "library: expected the name of a material, found " + describe(value),
                     std::move(hint));
     return;

@@ -337,7 +337,9 @@ class Parser {
     } else {
       const std::string_view text = textAt(at_);
       fail(at_, std::string("expected ") + expected + ", found " + shown(peek()),
-           looksLikeFile(text) ? quotesHint(text) : std::string());
+           looksLikeFile(text) ? quotesHint(text)
+           : peek() == '<'     ? "a point or a colour is (x, y, z), and a field name = value"
+                               : std::string());
     }
   }
 
@@ -427,16 +429,25 @@ class Parser {
     for (std::size_t i = first + 1; i < nodes_.size(); ++i) ++nodes_[i].end;
   }
 
+  [[noreturn]] void noColour(std::size_t hash) {
+    at_ = hash + 1;
+    while (isWordPart(peek())) ++at_;
+    const std::string_view word = source_.substr(hash + 1, at_ - hash - 1);
+    const bool isOrder = word == "include" || word == "declare" || word == "local" || word == "macro";
+    fail(hash, "expected six hexadecimal digits after #, as in #ffb347",
+         isOrder ? "Trace has include \"file.ray\", let a = 1 and define f(a) { }, without #" : "");
+  }
+
   /// #rrggbb: the linear colour of an sRGB one.
   void colour() {
     const std::size_t start = at_++;
     std::array<int, 6> digits{};
     for (int& digit : digits) {
       digit = hexDigit(peek());
-      if (digit < 0) fail(start, "expected six hexadecimal digits after #, as in #ffb347");
+      if (digit < 0) noColour(start);
       ++at_;
     }
-    if (isWordPart(peek())) fail(start, "expected six hexadecimal digits after #, as in #ffb347");
+    if (isWordPart(peek())) noColour(start);
     parsed_.usesLanguage = true;
     const std::uint32_t tuple = open(Kind::tuple, start);
     for (int i = 0; i < 3; ++i) {

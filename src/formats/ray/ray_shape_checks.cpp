@@ -31,7 +31,7 @@ void checkCurve(const Tell& tell, std::string_view list, std::size_t points, Spl
     tell(std::string(list) + ": expected " + expected + " points for the spline " +
              std::string(names(spline)[static_cast<std::size_t>(spline)]) + ", found " +
              std::to_string(points) + end,
-         {});
+         spline == Spline::bezier ? "spline = linear joins them by lines, spline = catmull by a curve" : "");
   };
   if (closed && spline != Spline::bezier) {
     if (points < 3) say("at least 3", "");  // what goes over its beginning again has enough

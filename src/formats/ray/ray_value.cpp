@@ -259,8 +259,10 @@ Value element(const Value& of, const Value& index) {
   if (!of.list()) refuse("expected a list before [ ], found " + shown(of));
   const double at = needNumber(index, "in [ ]");
   if (!(at >= 0 && at < static_cast<double>(of.list()->size())) || at != std::floor(at))
-    refuse("expected a whole number from 0 to " + std::to_string(of.list()->size()) +
-           " less 1 in [ ], found " + shown(index));
+    refuse((of.list()->empty() ? std::string("expected a list that is not empty before [ ], found ")
+                               : "expected a whole number from 0 to " +
+                                     std::to_string(of.list()->size() - 1) + " in [ ], found ") +
+           shown(index));
   return (*of.list())[static_cast<std::size_t>(at)];
 }
 
