@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -31,12 +32,22 @@ std::string colored(const Message& message) {
   return text;
 }
 
-}  // namespace
+/// A line that may be drawn on stderr by a thread that watches, until another prints.
+std::mutex drawnLine;
+bool lineIsDrawn = false;
 
-void printToTerminal(const std::string& text) {
+void replaceDrawnLine(const std::string& text, bool draws) {
+  const std::lock_guard lock(drawnLine);
+  if (std::exchange(lineIsDrawn, draws)) std::fputs("\r\033[K", stderr);
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
 }
+
+}  // namespace
+
+void printToTerminal(const std::string& text) { replaceDrawnLine(text, false); }
+void drawOnTerminal(const std::string& line) { replaceDrawnLine("\r" + line + "\r", true); }
+void clearDrawnLine() { replaceDrawnLine("", false); }
 
 LogLevel logLevel(std::string_view who, std::string_view name) {
   const auto found = std::find(std::begin(kLevels), std::end(kLevels), name);

@@ -55,7 +55,10 @@ enum class Paint { none, colors };
 /// Writes to stdout. Throws Error(Fault::io) when that fails, as on a full disk, or ReaderGone.
 void printResult(const std::string& text, Paint paint = Paint::none);
 
-/// Writes to stderr, at once.
+/// Writes to stderr, at once, in place of a drawn line.
 void printToTerminal(const std::string& text);
+/// Draws a line on stderr, which whatever is drawn or printed next replaces.
+void drawOnTerminal(const std::string& line);
+void clearDrawnLine();
 
 }  // namespace trace::cli

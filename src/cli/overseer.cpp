@@ -40,7 +40,7 @@ Overseer::~Overseer() {
   }
   ends_.notify_one();
   if (thread_.joinable()) thread_.join();
-  clear();
+  clearDrawnLine();
 }
 
 void Overseer::run() {
@@ -65,7 +65,7 @@ void Overseer::endIfLate() const {
 void Overseer::report() {
   const auto [step, since] = budget_.outermost();
   const double now = budget_.seconds();
-  if (!*step.doing || now - since < kQuietSeconds) return clear();
+  if (!*step.doing || now - since < kQuietSeconds) return clearDrawnLine();
   std::string text = step.doing;
   if (since != since_) estimate_ = {}, share_ = 0;
   since_ = since;
@@ -77,18 +77,11 @@ void Overseer::report() {
   }
   text += ", " + durationText(now) + " elapsed" + (left ? ", " + durationText(*left) + " of this left" : "");
   if (draws_) {
-    // The cursor goes back, so that whatever is printed next begins there.
-    printToTerminal("\r" + text.substr(0, static_cast<std::size_t>(std::max(1, columns() - 1))) + "\033[K\r");
-    drawn_ = true;
+    drawOnTerminal(text.substr(0, static_cast<std::size_t>(std::max(1, columns() - 1))));
   } else if (now - std::max(lastPrint_, since) >= kPlainLineSeconds) {
     printToTerminal(text + "\n");
     lastPrint_ = now;
   }
-}
-
-void Overseer::clear() {
-  if (drawn_) printToTerminal("\r\033[K");
-  drawn_ = false;
 }
 
 }  // namespace trace::cli

@@ -32,7 +32,6 @@ class Overseer {
   void run();
   void endIfLate() const;
   void report();
-  void clear();
 
   const Budget& budget_;
   const bool shows_, draws_;
@@ -41,7 +40,6 @@ class Overseer {
   double since_ = 0;      // of the work that estimate_ is of
   double share_ = 0;      // of that work
   RemainingTime estimate_;
-  bool drawn_ = false;
   std::mutex mutex_;
   std::condition_variable ends_;
   bool ended_ = false;

@@ -239,7 +239,7 @@ TEST_F(Stop, TheTimeLimitHoldsAfterTheLastRayToo) {
   const Run r = run(words);
   EXPECT_EQ(r.code, 5) << r.err;
   if (!exists("out.png")) GTEST_SKIP() << "the machine is too busy to trace a tile within the limit";
-  EXPECT_TRUE(contains(r.last, "stopped by the time limit: wrote out.png"));
+  EXPECT_TRUE(contains(r.last, "stopped by the time limit: wrote out.png")) << r.err;
   EXPECT_TRUE(exists("out.png.checkpoint"));
 }
 

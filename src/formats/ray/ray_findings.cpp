@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 23> kRelatives{
 /// This many warnings show their line and a hint; a flood of others does without.
 constexpr std::size_t kFullWarnings = 50;
 
-/// What Trace has for words of others: of courses, and of POV-Ray.
+/// Trace has these in place of words of courses and of POV-Ray.
 constexpr std::pair<std::string_view, std::string_view> kInstead[]{
     {"csg", "Trace has union, intersection and difference, as in difference { box { } sphere { } }"},
     {"metaball", "Trace has metaballs { threshold = 0.5; balls = ((x, y, z, radius, strength), ...); }"},
