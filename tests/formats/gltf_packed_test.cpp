@@ -220,6 +220,22 @@ TEST(GltfDraco, DamageCostsTheMeshAndIsTold) {
   }
 }
 
+TEST(GltfDraco, MoreValuesThanTheBytesCanHoldAreRefused) {
+  Patch bomb(63);
+  const std::string places = bomb.attributes.at("POSITION").bytes;
+  bomb.attributes.clear();
+  bomb.add("POSITION", 5126, 3, false, places);
+  for (int i = 0; i < 10; ++i)
+    bomb.add("_" + std::to_string(i), 5121, 120, false, std::string(120 * bomb.points(), '\0'));
+  const Dracoed draco = dracoOf(bomb, true, 8);
+  EXPECT_LT(draco.bytes.size(), 10000u);
+  Patch visible(63);
+  visible.attributes = {{"POSITION", bomb.attributes.at("POSITION")}};
+  const std::string error =
+      errorOf(dracoPatch(visible, {draco.bytes, {{"POSITION", draco.ids.at("POSITION")}}}).text());
+  EXPECT_NE(error.find("11 attributes of 3969 points are not believable in"), error.npos) << error;
+}
+
 TEST(GltfDraco, AMeshIsNotDecompressedAgainAndAgain) {
   Square square = dracoPatch(Patch(), dracoOf(Patch(20), true, 8));
   for (int i = 0; i < 9; ++i) square.root["meshes"].push_back(square.root["meshes"][0]);

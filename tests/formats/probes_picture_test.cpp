@@ -31,7 +31,7 @@ Outcome readProbe(const std::string& bytes) {
             outcome.seen += " " + std::to_string(static_cast<double>(sample) / raster.most);
         },
         raster.samples);
-    if (const std::string remark = pictureRemark(bytes); !remark.empty()) outcome.told.push_back(remark);
+    if (const std::string remark = pictureRemark(bytes, "a"); !remark.empty()) outcome.told.push_back(remark);
   } catch (const Error& error) {
     outcome.error = error.messages().front().what;
   }
@@ -137,8 +137,9 @@ TEST(Probes, OfPng) {
        chunk("tEXt", "tEXt", raw("Title\0a quad")),
        chunk("zTXt", "zTXt", raw("Title\0\0") + packed("a quad")),
        chunk("iTXt", "iTXt", raw("Title\0\0\0\0\0a quad"))});
-  EXPECT_EQ(pictureRemark(png(pngChunk("iCCP", raw("a\0\0") + packed("the profile sRGB IEC61966-2.1")))), "");
-  EXPECT_EQ(pictureRemark(png(pngChunk("gAMA", big(45455)))), "");
+  EXPECT_EQ(pictureRemark(png(pngChunk("iCCP", raw("a\0\0") + packed("the profile sRGB IEC61966-2.1"))), "a"),
+            "");
+  EXPECT_EQ(pictureRemark(png(pngChunk("gAMA", big(45455))), "a"), "");
 }
 
 // --- JPEG --------------------------------------------------------------------------------------------------
@@ -535,7 +536,7 @@ TEST(Probes, OfWebp) {
        {"other chunks", plain, extended(0, "", webpChunk("mine", "odd"))}});
   const Outcome named = readProbe(extended(8, "", webpChunk("EXIF", raw("Exif\0\0") + exif(2))));
   EXPECT_EQ(named.seen, readProbe(webpOf(upset)).seen) << "as some programs write it";
-  EXPECT_EQ(pictureRemark(extended(32, webpChunk("ICCP", "the profile sRGB IEC61966-2.1"), "")), "");
+  EXPECT_EQ(pictureRemark(extended(32, webpChunk("ICCP", "the profile sRGB IEC61966-2.1"), ""), "a"), "");
 }
 
 }  // namespace
