@@ -110,6 +110,8 @@ constexpr std::array kExrRows{
     KnownField{"A", kShown, "holes; colours are multiplied by it"},
     KnownField{"Y", kShown, "a grey"},
     KnownField{"Y, RY, BY", kShown, "luminance and chroma, also at lower resolution"},
+    KnownField{"X, Y, Z", kShown, "as red, green and blue"},
+    KnownField{"U, V", kShown, "as red and green"},
     KnownField{"one channel", kShown, "a grey"},
     KnownField{"other channels", kReported, "Z ..."},
     KnownField{"layers", kReported,

@@ -476,11 +476,16 @@ TEST(Probes, OfExr) {
   auto chroma = std::vector<P::Layer>{{"BY", half}, {"RY", half}, {"Y", {0, 1, 0, 1}}};
   P upward;
   upward.lineOrder = 1;
+  const auto space =
+      std::vector<P::Layer>{{"X", layers[2].values}, {"Y", layers[1].values}, {"Z", layers[0].values}};
   expectPictures(knownExrFields(),
                  {{"R, G, B", grey.bytes(), plain},
                   {"A", plain, P{.layers = withAlpha}.bytes()},
                   {"Y", plain, grey.bytes()},
                   {"Y, RY, BY", grey.bytes(), P{.layers = chroma}.bytes()},
+                  {"X, Y, Z", grey.bytes(), P{.layers = space}.bytes(), "", plain},
+                  {"U, V", grey.bytes(), P{.layers = {{"U", {1, 0, 0, 1}}, {"V", {0, 1, 0, 1}}}}.bytes(), "",
+                   P{.layers = {{"G", {0, 1, 0, 1}}, {"R", {1, 0, 0, 1}}}}.bytes()},
                   {"one channel", plain, P{.layers = {{"G", {0, 1, 0, 1}}}}.bytes(), "", grey.bytes()},
                   {"other channels", plain, P{.layers = withDepth}.bytes(), "channels that are not shown: Z"},
                   {"layers", plain, P{.layers = withLayer}.bytes(), "layers are not shown"},
