@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "app/difference.h"
 #include "app/output.h"
 #include "app/render_warnings.h"
 #include "app/scene_changes.h"
@@ -259,7 +260,8 @@ void Workspace::takeCompleted() {
 void Workspace::openReference(const std::string& file) {
   loading_.start([path = absolute(file)](const Cancelled&) {
     return outcomeOf(path, [&] {
-      return Reference{path, readPicture(path), pictureFormatFor(path).keepsBright};
+      LoadedPicture loaded = loadPicture(path);
+      return Reference{path, std::move(loaded.picture), !loaded.levels};
     });
   });
 }

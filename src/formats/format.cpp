@@ -51,7 +51,7 @@ constexpr std::array kFormats{
                 .write = writeComposer},
     SceneFormat{.name = "inventor",
                 .suffixes = kInventor,
-                .help = "Open Inventor 2.x, VRML 1.0 and VRML97, all as text",
+                .help = "Open Inventor 2.x, text and binary, VRML 1.0 and VRML97",
                 .recognises = recognisesInventor,
                 .read = readInventor,
                 .write = writeInventor},
@@ -107,6 +107,7 @@ std::string kindOf(std::string_view bytes) {
        "ELF",
        "a program"},
   }};
+  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "a WebP picture";
   for (const auto& [beginning, kind] : kBeginnings)
     if (bytes.starts_with(beginning)) return std::string(kind);
   if (bytes.find('\0') < 4096) return "binary data";

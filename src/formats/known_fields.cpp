@@ -127,6 +127,7 @@ std::span<const KnownFormat> knownFormats() {
       KnownFormat{"HDR", "Radiance HDR", "Brightness and colours are those that were measured.",
                   knownHdrFields()},
       KnownFormat{"EXR", "OpenEXR", "All compressions that OpenEXR reads.", knownExrFields()},
+      KnownFormat{"WebP", "WebP", "Read, not written.", knownWebpFields()},
   };
   return kAll;
 }

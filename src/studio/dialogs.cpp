@@ -73,7 +73,8 @@ void drawAbout(Studio& studio) {
   if (!ImGui::BeginPopupModal(kAboutTitle, &open, ImGuiWindowFlags_AlwaysAutoResize)) return;
   closeOnEscape(studio);
   ImGui::TextUnformatted((versionText() + ": the ray tracer you can see inside").c_str());
-  ImGui::TextDisabled("Made with Dear ImGui, GLFW, OpenGL, stb and OpenEXR. MIT licence.");
+  ImGui::TextDisabled(
+      "Made with Dear ImGui, GLFW, OpenGL, stb, OpenEXR,\nlibwebp, Draco and meshoptimizer. MIT licence.");
   ImGui::EndPopup();
 }
 

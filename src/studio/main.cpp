@@ -26,14 +26,7 @@ constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at wh
 
 const char* variable(const char* name) { return std::getenv(name); }
 
-bool isPicture(const std::string& file) {
-  try {
-    pictureFormatFor(file);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
+bool isPicture(const std::string& file) { return pictureFormatNamed(file) != nullptr; }
 
 void openDropped(Studio& studio, const std::string& file) {
   if (isPicture(file))

@@ -1,9 +1,12 @@
 // What the textures of other models than glTF become: exact texels, by the texture coordinates of their
 // meshes.
+#include "formats/model_textures.h"
+
 #include "model_texture_helpers.h"
 #include "shading/materials/principled.h"
 #include "shading/materials/rough_glass.h"
 #include "shading/textures/image_map.h"
+#include "support/webp.h"
 
 namespace trace::model_textures_test {
 namespace {
@@ -262,6 +265,12 @@ TEST(PictureKinds, FollowFromTheHead) {
   EXPECT_TRUE(kindOfPicture(png + std::string("\x8\x3\0\0\0", 5) + "crc." + chunk).transparent);
   for (std::size_t length : {0, 3, 17})
     EXPECT_FALSE(kindOfPicture(picture(true).substr(0, length)).transparent);
+  for (const bool lossless : {true, false})
+    for (const int channels : {3, 4}) {
+      Raster raster(2, 2, channels, 255);
+      raster.samples = std::vector<std::uint8_t>(raster.count(), 100);
+      EXPECT_EQ(kindOfPicture(test::webpOf(raster, lossless)).transparent, channels == 4);
+    }
 }
 
 }  // namespace

@@ -190,13 +190,14 @@ struct GltfLooks::Reader {
     return map;
   }
 
-  /// The number of its picture, perhaps of one of another kind that an extension names; -1 if it has none.
+  /// The number of its picture: of a WebP one, if it has that too; where it has no other, of one that an
+  /// extension names and nobody may be able to read. -1 if it has none.
   int imageOf(int texture) const {
     if (!isIndex(texture, gltf.textures.size())) return -1;
     const tinygltf::Texture& from = gltf.textures[static_cast<std::size_t>(texture)];
-    int source = from.source;
-    for (const char* other :
-         {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"})
+    int source = wholeOf(extension(from.extensions, "EXT_texture_webp", "source", -1));
+    if (source < 0) source = from.source;
+    for (const char* other : {"EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"})
       if (source < 0) source = wholeOf(extension(from.extensions, other, "source", -1));
     return isIndex(source, gltf.images.size()) ? source : -1;
   }
