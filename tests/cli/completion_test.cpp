@@ -237,7 +237,7 @@ TEST_F(Completions, GroffFormatsTheManualWithoutAWarning) {
   if (!isInstalled("groff")) GTEST_SKIP() << "groff is not installed";
   for (const std::string_view program : kManuals) {
     write("page.1", manualPage(program));
-    const std::string text = printed("sh", "groff -man -ww -Tutf8 page.1\n");
+    const std::string text = printed("sh", "groff -man -ww -Tutf8 -P-cbou page.1\n");
     EXPECT_NE(text.find("OPTIONS"), std::string::npos);
   }
 }
