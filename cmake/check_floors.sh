@@ -17,6 +17,16 @@ app
 cli studio'
 
 cd -- "${1:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
+for list in material texture; do
+  seers="$(grep -rlE "^#include \"shading/${list}_list.h\"" src | sort | tr '\n' ' ')"
+  case "$list $seers" in
+    'material src/shading/bsdf.cpp src/shading/material_table.cpp ' | 'texture src/shading/texture_table.cpp ') ;;
+    *)
+      echo "only the table of ${list}s and their Bsdfs include shading/${list}_list.h, not: $seers"
+      exit 1
+      ;;
+  esac
+done
 seers="$(grep -rlE '^#include "geometry/shape_list.h"' src tests bench | sort | tr '\n' ' ')"
 if [[ "$seers" != 'src/geometry/shape_table.cpp src/render/world_queries.cpp ' ]]; then
   echo "only the table of shapes and the World's queries include geometry/shape_list.h, not: $seers"

@@ -7,6 +7,7 @@
 #include "shading/background.h"
 #include "shading/cameras/camera.h"
 #include "shading/materials/phong.h"
+#include "shading/texture.h"
 
 namespace trace {
 
@@ -24,16 +25,7 @@ void followEdit(Phong& now, const Phong& before, std::string_view keyword);
 void followMove(Camera& now, std::string_view keyword, const std::optional<Vec3>& lookAt);
 
 /// The first colours of a ramp are a and b, which it takes the place of.
-template <class Struct>
-requires requires(Struct s) {
-  s.ramp;
-  s.a;
-  s.b;
-}
-void followEdit(Struct& now, const Struct& before, std::string_view keyword) {
-  if (keyword != "ramp" || !before.ramp.empty() || now.ramp.size() != 1) return;
-  now.ramp = {{0, now.a.r, now.a.g, now.a.b}, {1, now.b.r, now.b.g, now.b.b}};
-}
+void followEdit(TextureModel& now, const TextureModel& before, std::string_view keyword);
 
 /// Keeps a background sound: ascending limits, one less than colours, or none. Bands that are added get
 /// limits of their own; who takes a limit out wants equal bands again. Elevations ascend, one for each colour

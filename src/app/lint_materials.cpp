@@ -12,6 +12,7 @@
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/cube.h"
+#include "shading/textures/brick.h"
 
 namespace trace::lint_checks {
 namespace {
@@ -44,7 +45,7 @@ bool isBare(const LintScene& s, const Shape& shape, std::uint32_t material) {
 /// The first texture of bricks on the material, however deep.
 const TextureNode* bricksIn(const std::vector<FieldTexture>& textures) {
   for (const FieldTexture& t : textures) {
-    if (std::holds_alternative<Brick>(t.texture->model)) return &*t.texture;
+    if (t.texture->model.is<Brick>()) return &*t.texture;
     if (const TextureNode* inner = bricksIn(t.texture->inputs)) return inner;
   }
   return nullptr;
@@ -65,7 +66,7 @@ void brickJoint(const LintScene& s, Findings& findings) {
     if (!o.shape.is<Cube>()) continue;
     const TextureNode* node = bricksIn(s.scene.materials[o.material].textures);
     if (!node || node->placement.rotate != Vec3{}) continue;
-    const Brick& brick = std::get<Brick>(node->model);
+    const Brick& brick = *node->model.as<Brick>();
     if (brick.space != TextureSpace::point) continue;
     for (int axis = 2; axis >= 1; --axis) {
       const Real scale = node->placement.scale[axis], moved = node->placement.translate[axis];

@@ -2,6 +2,7 @@
 
 #include "app/lint_checks.h"
 #include "base/budget.h"
+#include "shading/materials/subsurface.h"
 #include "shading/medium.h"
 
 namespace trace::lint_checks {
@@ -71,7 +72,7 @@ void mediumEmpty(const LintScene& s, Findings& findings) {
 void subsurfaceOpen(const LintScene& s, Findings& findings) {
   for (std::uint32_t i = 0; i < s.scene.objects.size(); ++i) {
     const Material& material = s.scene.materials[s.scene.objects[i].material];
-    const auto* model = std::get_if<Subsurface>(&material.model);
+    const auto* model = material.model.as<Subsurface>();
     if (!model || s.world.solid(i)) continue;
     warn(findings, "subsurface-open", placeOf(s, i),
          quoted(s, i) + " encloses nothing, but has subsurface scattering: " +

@@ -68,15 +68,13 @@ const Object* firstWith(const Scene& scene, Is&& is) {
 
 /// A drawing, made for the light of lamps alone.
 bool draws(const MaterialModel& model) {
-  return match(model, []<class Model>(const Model&) {
-    return !std::is_same_v<Model, Phong> && !Model::kReciprocal && !Model::kKeepsEnergy;
-  });
+  return !model.is<Phong>() && !model.type().reciprocal && !model.type().keepsEnergy;
 }
 
 /// Phong's model lets it surely give back more light than it gets.
 bool gainsLight(const MaterialModel& model) {
   constexpr Real kMuch = 1.25;  // less is lost again in most scenes
-  const auto* phong = std::get_if<Phong>(&model);
+  const auto* phong = model.as<Phong>();
   if (!phong) return false;
   return maxComponent(phong->diffuse + (phong->transmits() ? phong->transmissive : phong->reflective)) >
          kMuch;
@@ -300,7 +298,7 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
     if (const Object* drawn = firstWith(scene, draws))
       messages.warn(
           drawn->place,
-          std::string(keywordOf(scene.materials[drawn->material].model)) +
+          std::string(scene.materials[drawn->material].model.keyword()) +
               " is not photorealistic and may reflect more light than it receives: with --integrator " +
               integrator + " its surroundings grow brighter with --depth",
           "--integrator whitted is meant for it");

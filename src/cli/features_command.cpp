@@ -43,7 +43,7 @@ std::string featuresText() {
   text += "passes (--passes NAME,NAME)\n";
   for (const PassRow& pass : passRows()) text += featureRow(pass.name, pass.help);
   text += "shading models (material = { model = NAME; ... })\n";
-  forEachType<MaterialModel>([&]<class Model>(Model*) { text += featureRow(Model::kKeyword, Model::kHelp); });
+  for (const ModelType& type : modelTypes()) text += featureRow(type.keyword, type.help);
   text += "materials of the library (material = { library = NAME; })\n";
   for (const Finish& finish : finishes())
     text += featureRow(finish.name, std::string(finish.group) + ", " + std::string(finish.looks));

@@ -7,7 +7,11 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/file.h"
 #include "base/read_scope.h"
+#include "shading/textures/image_map.h"
+#include "shading/textures/mix.h"
+#include "shading/textures/ramp.h"
 
 namespace trace {
 namespace {

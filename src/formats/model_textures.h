@@ -9,6 +9,7 @@
 #include "formats/textures.h"
 #include "image/raster.h"
 #include "shading/material.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 

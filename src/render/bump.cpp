@@ -4,8 +4,10 @@
 // alike. A picture of normals says them itself (shading/normal_map.h).
 #include "math/perpendicular.h"
 #include "render/world.h"
+#include "shading/materials/principled.h"
 #include "shading/normal_map.h"
 #include "shading/optics.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {
@@ -36,7 +38,7 @@ Vec3 saneNormal(const Vec3& plain, const Vec3& bent, const Vec3& direction, cons
 
 /// Null unless the texture is a picture of normals.
 const ImageMap* normalMap(const Texture& texture) {
-  const auto* map = std::get_if<ImageMap>(&texture->model);
+  const auto* map = texture->model.as<ImageMap>();
   return map && map->relief != Relief::heights ? map : nullptr;
 }
 
@@ -63,7 +65,7 @@ struct Heights {
 };
 
 const Principled* apart(const Material* material) {
-  const auto* model = material ? std::get_if<Principled>(&material->model) : nullptr;
+  const auto* model = material ? material->model.as<Principled>() : nullptr;
   return model && model->clearcoat > 0 && model->clearcoatApart ? model : nullptr;
 }
 

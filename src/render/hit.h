@@ -56,6 +56,7 @@ class PlaceBsdf {
   void replace(Bsdf bsdf) { own_ = std::move(bsdf); }
 
   const Bsdf& operator*() const { return own_ ? *own_ : *only_; }
+  const Bsdf* operator->() const { return &**this; }
 
  private:
   const Bsdf* only_ = nullptr;

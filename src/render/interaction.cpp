@@ -5,6 +5,8 @@
 #include "render/light_choice.h"
 #include "render/media.h"
 #include "shading/fresnel.h"
+#include "shading/materials/marschner.h"
+#include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -71,8 +73,12 @@ bool Interaction::spreads(const Subsurface& said) const {
   return !(least * size * kKnown > 1);
 }
 
+bool Interaction::sendsEvenly() const {
+  return scatters(*bsdf_) && !isGlossy(*bsdf_) && !bsdf_->is<MarschnerBsdf>();
+}
+
 std::optional<SubsurfaceBsdf> Interaction::takeBody() {
-  const auto* whole = std::get_if<SubsurfaceBsdf>(&*bsdf_);
+  const auto* whole = bsdf_->as<SubsurfaceBsdf>();
   if (!whole || !spreads(whole->said)) return {};
   const SubsurfaceBsdf body = *whole;
   bsdf_.replace(body.only(SubsurfaceBsdf::Part::surface));
@@ -80,8 +86,7 @@ std::optional<SubsurfaceBsdf> Interaction::takeBody() {
 }
 
 void Interaction::letIn() {
-  if (const auto* whole = std::get_if<SubsurfaceBsdf>(&*bsdf_))
-    bsdf_.replace(whole->only(SubsurfaceBsdf::Part::exit));
+  if (const auto* whole = bsdf_->as<SubsurfaceBsdf>()) bsdf_.replace(whole->only(SubsurfaceBsdf::Part::exit));
   coat = 0;
 }
 

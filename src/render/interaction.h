@@ -14,6 +14,9 @@
 
 namespace trace {
 
+struct Subsurface;
+struct SubsurfaceBsdf;
+
 class Interaction {
  public:
   /// For a ray that met `hit`; `inside` is what it was in there. `footprint` is that of the ray at the hit,
@@ -71,9 +74,7 @@ class Interaction {
   /// The share of such a disk that does, by the kernel of PhotonMap::Near::perArea().
   Real shareOfDisk(Real radius, Sampler numbers) const;
   /// Whether it scatters, without a lobe that is nearly a mirror, as hair has some.
-  bool sendsEvenly() const {
-    return scatters(*bsdf_) && !isGlossy(*bsdf_) && !std::holds_alternative<MarschnerBsdf>(*bsdf_);
-  }
+  bool sendsEvenly() const;
   /// Adds the light of photons that is scattered to where the ray comes from: the diffuse part of it, or all.
   /// `share` is how much of their disk lies on the surface. Photons that a surface less than `apart` away has
   /// sent do not count.

@@ -13,6 +13,7 @@
 #include "render/illumination_map.h"
 #include "render/media.h"
 #include "render/photon_targets.h"
+#include "shading/materials/subsurface.h"
 
 namespace trace {
 

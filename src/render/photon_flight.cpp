@@ -4,6 +4,7 @@
 #include "render/onward.h"
 #include "render/photon_emitter.h"
 #include "render/subsurface.h"
+#include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shading/fresnel.h"
+#include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {

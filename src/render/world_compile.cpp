@@ -11,6 +11,7 @@
 #include "render/number_range.h"
 #include "render/world.h"
 #include "scene/displacement.h"
+#include "shading/materials/subsurface.h"
 
 namespace trace {
 /// Hierarchies of meshes, by the data of the scene and what displaces it.
@@ -54,7 +55,7 @@ std::vector<Material> shownAs(std::vector<Material> materials, const Settings& s
       if (textureOf(material.textures, "displacement")) material.displacement = 0;
       material.textures.clear();
     }
-    if (settings.models == Models::asSaid || std::holds_alternative<Phong>(material.model)) continue;
+    if (settings.models == Models::asSaid || material.model.is<Phong>()) continue;
     const Phong nearest = phongOf(material.model);
     for (FieldTexture& t : material.textures)
       if (t.field == kColor) t.field = kDiffuse;
@@ -147,8 +148,9 @@ std::vector<std::uint32_t> kindsOf(const std::vector<Material>& materials, const
   std::map<std::tuple<Real, Real, Real, Real, Real>, std::vector<std::uint32_t>> firsts;  // by some numbers
   const auto nameless = [](Material material) {
     material.name.clear();
-    match(material.model, [](auto& model) {
-      if constexpr (requires { model.priority; }) model.priority = 0;
+    editEachField(material.model, [](const ModelField& field, auto& value) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real>)
+        if (field.keyword == "priority") value = 0;
     });
     return material;
   };
@@ -193,7 +195,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                                material.opacity, hasHoles, twoSided});
     world.hasTwoSided_ |= twoSided;
     world.hasHoles_ |= hasHoles;
-    world.hasSubsurface_ |= std::holds_alternative<Subsurface>(material.model);
+    world.hasSubsurface_ |= material.model.is<Subsurface>();
   }
   world.nestedGlass_ = settings.nestedGlass == NestedGlass::on ||
                        (settings.nestedGlass == NestedGlass::byPriority &&

@@ -12,7 +12,7 @@
 #include "base/field.h"
 #include "math/color.h"
 #include "math/vec.h"
-#include "shading/textures/image_map.h"
+#include "shading/pixels.h"
 
 namespace trace {
 

@@ -1,58 +1,58 @@
-// THE list of material models, and a material as a scene keeps it.
+// A material as a scene keeps it: a shading model of whatever type (material_list.h has the list), and what
+// every material has besides.
 #pragma once
 
 #include <array>
 #include <functional>
 #include <initializer_list>
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "base/match.h"
-#include "shading/materials/ashikhmin_shirley.h"
-#include "shading/materials/cel.h"
-#include "shading/materials/coated.h"
-#include "shading/materials/conductor.h"
-#include "shading/materials/cook_torrance.h"
-#include "shading/materials/gooch.h"
-#include "shading/materials/hair.h"
-#include "shading/materials/hatching.h"
-#include "shading/materials/lambert.h"
-#include "shading/materials/marschner.h"
-#include "shading/materials/oren_nayar.h"
+#include "base/listed.h"
 #include "shading/materials/phong.h"
-#include "shading/materials/principled.h"
-#include "shading/materials/rough_glass.h"
-#include "shading/materials/schlick_brdf.h"
-#include "shading/materials/subsurface.h"
-#include "shading/materials/thin_glass.h"
-#include "shading/materials/velvet.h"
-#include "shading/materials/ward.h"
 #include "shading/texture.h"
+#include "shading/textures/pattern.h"
 
 namespace trace {
 
-/// Copied and compared in one .cpp: where a variant of so many structs is copied, it is slow to compile.
-struct MaterialModel : std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance,
-                                    Ward, SchlickModel, AshikhminShirley, Velvet, Hair, Marschner, RoughGlass,
-                                    ThinGlass, Cel, Gooch, Hatching, Subsurface> {
-  using variant::variant;
-  using variant::operator=;
-  MaterialModel();
-  MaterialModel(const MaterialModel&);
-  MaterialModel(MaterialModel&&) noexcept;
-  MaterialModel& operator=(const MaterialModel&);
-  MaterialModel& operator=(MaterialModel&&) noexcept;
-  ~MaterialModel();
-  bool operator==(const MaterialModel&) const;
+class Bsdf;
+
+/// A field of a shading model and where its value lies.
+struct ModelField : FieldValue<bool, int, Real, Color, ColorRamp> {};
+
+/// A row of the table of shading models.
+struct ModelType : ListedRow<ModelField> {
+  bool reciprocal;   ///< light may go either way along a path (shading/scattering.h)
+  bool keepsEnergy;  ///< no more light leaves than arrives
+  Bsdf (*bsdf)(const void* model, const Rules& rules);
+  /// At a place, with textures in place of fields.
+  Bsdf (*bsdfAt)(const void* model, const std::vector<FieldTexture>& textures, const TexturePlace& place,
+                 const Rules& rules);
+  Phong (*asPhong)(const void* model);
 };
 
-/// The model of that keyword, with its defaults; null if there is none.
-std::optional<MaterialModel> modelCalled(std::string_view keyword);
+std::span<const ModelType> modelTypes();
+/// Null if no model has that keyword.
+const ModelType* findModelType(std::string_view keyword);
 std::vector<std::string_view> modelKeywords();
-std::string_view keywordOf(const MaterialModel& model);
+template <>
+const ModelType& rowCalled<ModelType>(std::string_view keyword);
+
+/// How a surface scatters light. Copies share their data.
+class MaterialModel : public Listed<ModelType, ModelField> {
+ public:
+  using Listed::Listed;
+  /// Phong's.
+  MaterialModel() : Listed(modelTypes().front()) {}
+
+ private:
+  friend Bsdf bsdfOf(const MaterialModel& model, const Rules& rules);
+  friend Bsdf bsdfAt(const MaterialModel& model, const std::vector<FieldTexture>& textures,
+                     const TexturePlace& place, const Rules& rules);
+  friend Phong phongOf(const MaterialModel& model);
+};
 
 /// Which sides of a surface reflect light. Of `front` the back is dark; `both` turns the normal to the
 /// viewer's side first. It does not change the transmitted side: there the two sides differ.

@@ -17,9 +17,9 @@
 #include "geometry/shapes/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
+#include "shading/formula_text.h"
 #include "shading/lights/photometry.h"
-#include "shading/textures/formula.h"
-#include "shading/textures/image_map.h"
+#include "shading/pixels.h"
 
 namespace trace::studio {
 

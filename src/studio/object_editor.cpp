@@ -168,7 +168,7 @@ void editPlacedShape(Studio& studio, PlacedShape placed, const Changed& changed)
     endFields();
   }
   if (placed.shape.type().ofObjects) {
-    for (const AnyField& field : fieldsOf(placed.shape))
+    for (const AnyField& field : placed.shape.fields())
       if (std::holds_alternative<Operands*>(field.value))
         ImGui::TextDisabled("%s", std::string(field.help).c_str());
     editOperands(studio, placed.shape, placed.material, changed);

@@ -17,6 +17,7 @@
 #include "base/file.h"
 #include "base/sanitized.h"
 #include "formats/format.h"
+#include "shading/textures/image_map.h"
 #include "support/folder.h"
 #include "support/paths.h"
 
@@ -801,7 +802,7 @@ TEST(BrokenFiles, KeepTheNamesOfTheirTextures) {
     const Scene read = readScene(file, text, messages);
     Names names;
     for (const FieldTexture& t : read.materials.at(read.objects.at(0).material).textures)
-      names.emplace_back(t.field, std::get<ImageMap>(t.texture->model).file.file);
+      names.emplace_back(t.field, t.texture->model.as<ImageMap>()->file.file);
     return names;
   };
   EXPECT_EQ(maps(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"),

@@ -19,7 +19,7 @@ std::string vrml2(const std::string& text) { return "#VRML V2.0 utf8\n" + text; 
 std::string shape(const std::string& geometry) { return vrml2("Shape { geometry " + geometry + " }"); }
 
 const Phong& phongAt(const Scene& scene, std::size_t object) {
-  return std::get<Phong>(scene.materials.at(scene.objects.at(object).material).model);
+  return *scene.materials.at(scene.objects.at(object).material).model.as<Phong>();
 }
 Vec3 placeOf(const Scene& scene, std::size_t object) {
   return scene.objects.at(object).worldFromObject.offset;
@@ -207,7 +207,7 @@ TEST(Inventor, BindingsGiveEachFaceOrCornerItsOwn) {
       for (std::uint32_t p : t) {
         const Color c = mesh.materials.empty()
                             ? phongAt(scene, 0).diffuse
-                            : std::get<Phong>(scene.materials[mesh.materials[p]].model).diffuse;
+                            : scene.materials[mesh.materials[p]].model.as<Phong>()->diffuse;
         colors += c.r > 0 ? 'r' : c.g > 0 ? 'g' : 'b';
       }
     return colors;

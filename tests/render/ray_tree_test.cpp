@@ -245,8 +245,8 @@ TEST(RayTree, NamesTheMaterialsOfATrianglesCornersWithTheirWeights) {
 
 TEST(RayTree, NamesTheMaterialsOfWhatFiltersOrBlocksAShadowRay) {
   Scene scene = withMaterials({"floor", "dark", "glass"});
-  std::get<Phong>(scene.materials[0].model).diffuse = Color(1);
-  std::get<Phong>(scene.materials[2].model).transmissive = Color(0.5);
+  scene.materials[0].model.edit<Phong>()->diffuse = Color(1);
+  scene.materials[2].model.edit<Phong>()->transmissive = Color(0.5);
   scene.objects.push_back({"", Square{}, Affine::scaling({20, 20, 1}), 0, {}});
   const Affine over = Affine::translation({8, 0, 2});
   scene.objects.push_back({"", Union{Operands({{"", Cube{}, {}, 2}})}, over, 1, {}});

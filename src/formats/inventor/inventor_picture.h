@@ -8,6 +8,7 @@
 #include "formats/inventor/inventor_fields.h"
 #include "formats/model_textures.h"
 #include "shading/material.h"
+#include "shading/textures/image_map.h"
 
 namespace trace::inventor {
 

@@ -18,6 +18,7 @@
 #include "geometry/shapes/sphere.h"
 #include "scene/displacement.h"
 #include "scene/options.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace inventor {

@@ -14,6 +14,8 @@
 #include "formats/mesh/gltf_material.h"
 #include "formats/mesh/gltf_numbers.h"
 #include "formats/mesh/gltf_values.h"
+#include "shading/materials/principled.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {
@@ -104,7 +106,7 @@ struct GltfLooks::Reader {
 
   /// Tells what the material says and its model has no place for.
   Material checked(const tinygltf::Material& from, const MetallicRoughness& m, Material material) {
-    const bool principled = std::holds_alternative<Principled>(material.model);
+    const bool principled = material.model.is<Principled>();
     if (m.metallicRoughnessMap && !principled && !textureOf(material.textures, "roughness"))
       note(from.pbrMetallicRoughness.metallicRoughnessTexture.index);
     const auto lacks = [&](bool has, const char* what) {

@@ -6,6 +6,7 @@
 
 #include "math/color.h"
 #include "shading/material.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 

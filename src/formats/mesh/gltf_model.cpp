@@ -5,6 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shading/materials/lambert.h"
+#include "shading/materials/principled.h"
+#include "shading/materials/rough_glass.h"
+#include "shading/materials/thin_glass.h"
+
 namespace trace {
 
 double evenOpacity(const MetallicRoughness& m) {

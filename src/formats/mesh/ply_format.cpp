@@ -16,6 +16,7 @@
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {

@@ -9,6 +9,7 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellation.h"
 #include "scene/displacement.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {
@@ -29,7 +30,7 @@ MeshData transformed(const MeshData& mesh, const Affine& worldFromObject) {
 
 /// The picture, if the texture is one that lies as the texture coordinates have it, or half a texel beside.
 const ImageMap* plainPicture(const Texture& texture) {
-  const auto* map = std::get_if<ImageMap>(&texture->model);
+  const auto* map = texture->model.as<ImageMap>();
   if (!map || !texture->inputs.empty() || !(texture->placement == TexturePlacement{})) return nullptr;
   if (map->wrapU != map->wrapV || map->wrapU == Wrap::mirror) return nullptr;
   ImageMap usual{.file = map->file, .wrapU = map->wrapU, .wrapV = map->wrapV};

@@ -259,7 +259,7 @@ void sayField(TextEdits& edits, const Item& block, std::string_view keyword, con
 }
 
 void changeFields(TextEdits& edits, const Item& block, const Shape& from, const Shape& to) {
-  const std::vector<AnyField> was = fieldsOf(from), is = fieldsOf(to);
+  const std::vector<AnyField> was = from.fields(), is = to.fields();
   for (std::size_t i = 0; i < is.size(); ++i)
     match(is[i].value, [&]<class Value>(const Value& value) {
       const Value& before = *std::get_if<Value>(&was[i].value);

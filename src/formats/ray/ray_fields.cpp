@@ -139,10 +139,12 @@ bool read(Findings& findings, std::string_view name, const Item& value, EnumValu
   return false;
 }
 
-bool assignField(Findings& findings, Shape& target, const Item& field) {
-  const std::string_view key = canonical(field.key(), target.keyword());
+namespace {
+
+template <class Any>
+bool assignTo(Findings& findings, Any& target, const Item& field, std::string_view key) {
   bool found = false;
-  editEachField(target, [&](const AnyField& f, auto& value) {
+  editEachField(target, [&](const auto& f, auto& value) {
     if (f.keyword != key) return;
     found = true;
     readField(findings, f, field.value(), value);
@@ -150,17 +152,34 @@ bool assignField(Findings& findings, Shape& target, const Item& field) {
   return found;
 }
 
-void checkRange(Findings& findings, const Shape& target, const Item& field) {
-  const std::string_view key = canonical(field.key(), target.keyword());
-  forEachField(target, [&](const AnyField& f, const auto& value) {
-    if (f.keyword == key) checkRange(findings, target.keyword(), f, value, field);
+template <class Any>
+void checkRangeOf(Findings& findings, const Any& target, const Item& field, std::string_view key,
+                  std::string_view owner) {
+  forEachField(target, [&](const auto& f, const auto& value) {
+    if (f.keyword == key) checkRange(findings, owner, f, value, field);
   });
 }
 
-std::vector<std::string_view> keywords(const Shape& shape, std::initializer_list<std::string_view> more) {
-  std::vector<std::string_view> words(more);
-  for (const AnyField& field : fieldsOf(shape)) words.push_back(field.keyword);
-  return words;
+}  // namespace
+
+bool assignField(Findings& findings, Shape& target, const Item& field) {
+  return assignTo(findings, target, field, canonical(field.key(), target.keyword()));
+}
+bool assignField(Findings& findings, MaterialModel& target, const Item& field) {
+  return assignTo(findings, target, field, canonical(field.key()));
+}
+bool assignField(Findings& findings, TextureModel& target, const Item& field) {
+  return assignTo(findings, target, field, canonical(field.key()));
+}
+
+void checkRange(Findings& findings, const Shape& target, const Item& field) {
+  checkRangeOf(findings, target, field, canonical(field.key(), target.keyword()), target.keyword());
+}
+void checkRange(Findings& findings, const MaterialModel& target, const Item& field, std::string_view owner) {
+  checkRangeOf(findings, target, field, canonical(field.key()), owner);
+}
+void checkRange(Findings& findings, const TextureModel& target, const Item& field, std::string_view owner) {
+  checkRangeOf(findings, target, field, canonical(field.key()), owner);
 }
 
 std::string written(Real value, int digits) {

@@ -17,9 +17,10 @@
 #include "geometry/shapes/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
+#include "shading/formula_text.h"
 #include "shading/lights/photometry.h"
-#include "shading/textures/formula.h"
-#include "shading/textures/image_map.h"
+#include "shading/material.h"
+#include "shading/pixels.h"
 
 namespace trace::rayfile {
 
@@ -168,6 +169,8 @@ bool assignField(Findings& findings, Struct& target, const Item& field) {
   return found;
 }
 bool assignField(Findings& findings, Shape& target, const Item& field);
+bool assignField(Findings& findings, MaterialModel& target, const Item& field);
+bool assignField(Findings& findings, TextureModel& target, const Item& field);
 
 /// Warns, as for a person, that a number is outside its range.
 void warnOfRange(Findings& findings, std::string_view owner, std::string_view name, double least, double most,
@@ -204,6 +207,8 @@ void checkRange(Findings& findings, const Struct& target, const Item& field,
   });
 }
 void checkRange(Findings& findings, const Shape& target, const Item& field);
+void checkRange(Findings& findings, const MaterialModel& target, const Item& field, std::string_view owner);
+void checkRange(Findings& findings, const TextureModel& target, const Item& field, std::string_view owner);
 
 /// The keywords of Struct's fields, and more.
 template <class Struct>
@@ -212,6 +217,12 @@ std::vector<std::string_view> keywords(std::initializer_list<std::string_view> m
   forEachField<Struct>([&](const auto& f) { words.push_back(f.keyword); });
   return words;
 }
-std::vector<std::string_view> keywords(const Shape& shape, std::initializer_list<std::string_view> more = {});
+template <class Row, class AnyField>
+std::vector<std::string_view> keywords(const Listed<Row, AnyField>& listed,
+                                       std::initializer_list<std::string_view> more = {}) {
+  std::vector<std::string_view> words(more);
+  for (const AnyField& field : listed.fields()) words.push_back(field.keyword);
+  return words;
+}
 
 }  // namespace trace::rayfile

@@ -6,6 +6,7 @@
 #include "render/footprint.h"
 #include "render/integrators/bdpt_paths.h"
 #include "render/subsurface.h"
+#include "shading/materials/subsurface.h"
 
 namespace trace {
 

@@ -7,6 +7,7 @@
 
 #include "render/integrators/bdpt.h"
 #include "render/path_place.h"
+#include "shading/materials/subsurface.h"
 
 namespace trace {
 

@@ -12,6 +12,7 @@
 #include "render/photons.h"
 #include "render/render.h"
 #include "render/subsurface.h"
+#include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {

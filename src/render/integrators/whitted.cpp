@@ -13,6 +13,7 @@
 #include "render/media.h"
 #include "render/subsurface.h"
 #include "shading/dispersion.h"
+#include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {

@@ -13,6 +13,7 @@
 #include "render/integrator.h"
 #include "render/lamps.h"
 #include "render/photons.h"
+#include "shading/materials/subsurface.h"
 
 namespace trace {
 

@@ -11,7 +11,7 @@
 #include "shading/lights/illumination.h"
 #include "shading/lights/lamp_fields.h"
 #include "shading/lights/light_reach.h"
-#include "shading/textures/image_map.h"
+#include "shading/pixels.h"
 
 namespace trace {
 

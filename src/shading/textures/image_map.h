@@ -2,32 +2,14 @@
 #pragma once
 
 #include <array>
-#include <memory>
-#include <string>
 #include <string_view>
 
-#include "base/error.h"
 #include "base/field.h"
 #include "image/mipmap.h"
+#include "shading/pixels.h"
 #include "shading/texture_place.h"
 
 namespace trace {
-
-/// A picture file that lies inside the file of a scene.
-struct InsideFile {
-  std::string name;   ///< that the scene's file gives it; may be empty
-  std::string bytes;  ///< bytes of the picture file
-};
-
-/// The pixels of a file, behind a shared const handle; null until they are loaded (formats/textures.h).
-struct Pixels {
-  std::string file;                   ///< as the scene names it
-  std::shared_ptr<const MipMap> map;  ///< follows from the file
-  Place place;                        ///< where the scene names it
-  /// Null for a file of its own, and where the one inside cannot be read.
-  std::shared_ptr<const InsideFile> inside{};
-  bool operator==(const Pixels& other) const { return file == other.file; }
-};
 
 /// The channel of a texel that is used.
 enum class Channel { color, red, green, blue, alpha };
