@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks that every guarantee of docs/limits.md names tests, and that each of them exists. A name may contain
+# Checks that every guarantee of docs/developers/limits.md names tests, and that each of them exists. A name may contain
 # `*`, as of tests over a list. Usage: check_limits.sh BUILD_FOLDER [checkout]
 set -euo pipefail
 
@@ -21,9 +21,9 @@ while IFS='|' read -r _ promise names _; do
     [[ -n "$name" ]] || continue
     found=1
     pattern="$(sed 's/[.[\/]/\\&/g; s/\*/.*/g' <<<"$name")"
-    grep -qx -- "$pattern" <<<"$tests" || { echo "docs/limits.md: no test is called $name"; wrong=$((wrong + 1)); }
+    grep -qx -- "$pattern" <<<"$tests" || { echo "docs/developers/limits.md: no test is called $name"; wrong=$((wrong + 1)); }
   done < <(grep -oE '[a-z]+\.[A-Za-z0-9_/*]+(\.[A-Za-z0-9_/*]+)?' <<<"$names")
-  ((found)) || { echo "docs/limits.md: no test stands behind:$promise"; wrong=$((wrong + 1)); }
-done < <(grep '^|' docs/limits.md)
+  ((found)) || { echo "docs/developers/limits.md: no test stands behind:$promise"; wrong=$((wrong + 1)); }
+done < <(grep '^|' docs/developers/limits.md)
 echo "$promises promises, $wrong without a test"
 ((promises > 0 && wrong == 0))

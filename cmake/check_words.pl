@@ -10,7 +10,7 @@ use File::Find;
 
 chdir($ARGV[0] // dirname(__FILE__) . "/..") or die;
 my $longest = 25;               # words of a sentence on a page
-my @labBooks = ('docs/performance.md');  # whose sentences may be longer
+my @labBooks = ('docs/developers/performance.md');  # whose sentences may be longer
 
 # Each line of the list: where it holds, the phrase (a regular expression), and the better words.
 my (%patterns, @rules);

@@ -79,6 +79,8 @@ struct Arguments {
   bool inPlace = false;               ///< format: --in-place
   bool markdown = false;              ///< features: as docs/options.md; convert: docs/formats.md
   std::string examples;               ///< features: --examples, the folder of the scenes
+  std::string_view completion;        ///< features: the shell of --completion; may be empty
+  std::string_view manual;            ///< features: the program of --man; may be empty
   /// texture and materials: --size, width and height
   std::optional<std::array<int, 2>> size{};
   std::optional<double> across;  ///< texture: --across, steps of the pattern

@@ -5,8 +5,10 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/completion.h"
 #include "cli/flags.h"
 #include "cli/help.h"
+#include "cli/manual.h"
 #include "formats/format.h"
 #include "image/codec.h"
 #include "render/integrator.h"
@@ -78,7 +80,14 @@ int featuresCommand(const Arguments& arguments, const Console& console) {
     writeFile(arguments.output + "/README.md", extensionsMarkdown());
     return kDone;
   }
-  printResult(arguments.markdown ? optionsMarkdown() : featuresText());
+  const std::string text = !arguments.completion.empty() ? completionScript(arguments.completion)
+                           : !arguments.manual.empty()   ? manualPage(arguments.manual)
+                           : arguments.markdown          ? optionsMarkdown()
+                                                         : featuresText();
+  if (arguments.output.empty())
+    printResult(text);
+  else
+    writeFile(arguments.output, text);
   return kDone;
 }
 

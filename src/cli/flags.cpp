@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "base/text.h"
+#include "cli/completion.h"
+#include "cli/manual.h"
 
 namespace trace::cli {
 namespace {
@@ -28,7 +30,7 @@ constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff
     kEverywhere{Verb::render, Verb::gui,    Verb::info,       Verb::bench,    Verb::explain,   Verb::lint,
                 Verb::diff,   Verb::grade,  Verb::convert,    Verb::texture,  Verb::materials, Verb::newScene,
                 Verb::format, Verb::expand, Verb::stereogram, Verb::features, Verb::selftest,  Verb::help};
-constexpr Verbs kTexture{Verb::texture};
+constexpr Verbs kTexture{Verb::texture}, kFeatures{Verb::features};
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -358,6 +360,14 @@ std::span<const Flag> flags() {
            false,
            "print docs/options.md, or of texture docs/texture-fields.md, or of convert docs/formats.md",
            [](Arguments& a, std::string_view) { a.markdown = true; }},
+      Flag{"completion", 0, Takes::value, "bash|zsh|fish", "", kFeatures, false,
+           "print the completion of that shell for ray and ray-studio (docs/install.md)",
+           [](Arguments& a, std::string_view value) {
+             a.completion = kShells[pick("completion", value, kShells)];
+           }},
+      Flag{"man", 0, Takes::optional, "ray|ray-studio", "ray", kFeatures, false,
+           "print the page of the program for man: ray features --man | man -l -",
+           [](Arguments& a, std::string_view value) { a.manual = kManuals[pick("man", value, kManuals)]; }},
       Flag{
           "examples",
           0,

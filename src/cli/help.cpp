@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/flags.h"
+#include "cli/help_parts.h"
 #include "cli/terminal.h"
 #include "scene/conventions.h"
 
@@ -52,7 +53,8 @@ std::string joined(std::span<const std::string_view> words, std::string_view bet
   return text;
 }
 
-/// The argument of the flag.
+}  // namespace
+
 std::string placeholder(const Option& option) {
   switch (option.kind) {
     case Option::Kind::boolean: return "[on|off]";
@@ -99,7 +101,6 @@ std::string defaultOf(const Option& option) {
   return option.kind == Option::Kind::region && value == "0,0,0,0" ? "the whole picture" : value;
 }
 
-/// The short flags that stand for a value of the option: "-b is bvh, -B is none".
 std::string shortValues(const Option& option) {
   std::string text;
   for (const ShortFlag& flag : shortFlags())
@@ -107,6 +108,8 @@ std::string shortValues(const Option& option) {
       text += (text.empty() ? "-" : ", -") + std::string(1, flag.letter) + " is " + std::string(flag.value);
   return text;
 }
+
+namespace {
 
 std::string optionEntry(const Option& option, bool all) {
   std::string right(option.help);
@@ -122,6 +125,8 @@ std::string optionEntry(const Option& option, bool all) {
   return entry(flagsOf(option) + " " + placeholder(option), right);
 }
 
+}  // namespace
+
 std::string flagsOf(const Flag& flag) {
   std::string text = "--" + std::string(flag.name);
   if (flag.letter) text = "-" + std::string(1, flag.letter) + ", " + text;
@@ -135,12 +140,14 @@ std::string flagsOf(const Flag& flag) {
   return text;
 }
 
-std::vector<std::string_view> groups() {
+std::vector<std::string_view> optionGroups() {
   std::vector<std::string_view> names;
   for (const Option& option : options())
     if (std::find(names.begin(), names.end(), option.group) == names.end()) names.push_back(option.group);
   return names;
 }
+
+namespace {
 
 std::string conventionsText() {
   std::string text = "\nConventions that --like names\n";
@@ -176,7 +183,7 @@ std::string optionsText(bool all) {
       if (isCommon(option.name)) text += optionEntry(option, false);
     return text;
   }
-  for (std::string_view group : groups()) {
+  for (std::string_view group : optionGroups()) {
     text += "\n" + std::string(group) + "\n";
     for (const Option& option : options())
       if (option.group == group) text += optionEntry(option, true);
@@ -184,13 +191,16 @@ std::string optionsText(bool all) {
   return text + conventionsText();
 }
 
+}  // namespace
+
 std::string usageOf(const Command& command) {
   const bool first = &command == &commands().front();
   return "ray " + (first ? "[render]" : std::string(command.name)) +
          (command.arguments.empty() ? "" : " " + std::string(command.arguments));
 }
 
-}  // namespace
+std::string_view exitCodes() { return kExitCodes; }
+std::string_view signalsText() { return kSignals; }
 
 std::string helpText(bool all) {
   std::string text = "Trace " TRACE_VERSION ", the ray tracer you can see inside\n\n";
@@ -246,7 +256,7 @@ std::string optionsMarkdown() {
       "scene file overrides a default, and the command line overrides the scene file. Switches take "
       "`--flag`,\n"
       "`--flag on`, `--flag off` and `--no-flag`.\n";
-  for (std::string_view group : groups()) {
+  for (std::string_view group : optionGroups()) {
     text += "\n## " + std::string(group) +
             "\n\n| flag | values | default | what it does | source |\n|---|---|---|---|---|\n";
     for (const Option& option : options()) {

@@ -1,4 +1,4 @@
-// THE list of shading models. A new one is a header of shading/materials/ and its name here. Only the table
+// THE list of shading models. A new model is a header in shading/materials/ and a name here. Only the table
 // (material_table.cpp) and their Bsdfs (bsdf.cpp) see all of them: cmake/check_floors.sh holds that.
 #pragma once
 

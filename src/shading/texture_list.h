@@ -1,4 +1,4 @@
-// THE list of textures. A new one is a header of shading/textures/ and its name here. Only the table
+// THE list of textures. A new texture is a header in shading/textures/ and a name here. Only the table
 // (texture_table.cpp) sees all of them: cmake/check_floors.sh holds that.
 //
 // Each is a struct with kKeyword, kHelp, fields() and

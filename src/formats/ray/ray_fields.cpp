@@ -292,7 +292,10 @@ void warnOfRange(Findings& findings, std::string_view owner, std::string_view na
   const std::string field = std::string(name) + " of " + std::string(owner);
   const std::string range =
       most == kNoLimit ? "at least " + toText(least) : toText(least) + " to " + toText(most);
-  findings.warn(at, field + ": expected " + range + ", found " + toText(value), {}, "range: " + field);
+  const bool ofBytes = value > 1 && value <= 255 && most == 1 && at.keyed() && at.value().is(Kind::tuple);
+  findings.warn(at, field + ": expected " + range + ", found " + toText(value),
+                ofBytes ? "a colour goes from 0 to 1; #ff8000 is one as picture programs write it" : "",
+                "range: " + field);
 }
 
 }  // namespace trace::rayfile
