@@ -34,7 +34,7 @@ bool lacksPicture(const Texture& texture) {
   return false;
 }
 
-/// The part of a texture that is shown right after it was chosen.
+/// The texture that is shown right after a kind was chosen.
 TextureModel newModel(const TextureType& type) {
   TextureModel model(type);
   if (Formula* formula = model.edit<Formula>()) formula->value = FormulaText("0.5 + 0.5 * sin(6 * x)");

@@ -13,7 +13,7 @@
 
 namespace trace {
 
-/// The columns of every such table; a list's own row is derived from it.
+/// The members of a row that every list has; a list's own row is derived from it.
 template <class AnyField>
 struct ListedRow {
   std::string_view keyword;  ///< as in scene files

@@ -1,4 +1,4 @@
-// The answers of each model's Bsdf, as rows of a table, and mixtures of several models.
+// The functions of a model's Bsdf, as rows of a table, and mixtures of several models.
 #include "shading/bsdf.h"
 
 #include <array>
@@ -18,7 +18,7 @@ struct MixedParts;
 struct MixedBsdf : WhittedTerms {
   std::shared_ptr<const MixedParts> parts;
 
-  /// The fields that models have in common.
+  /// Fields common to models.
   static constexpr auto fields() {
     const auto named = [](const char* keyword, auto member) {
       return Field{keyword, member, "", 0, kNoLimit, ""};

@@ -18,7 +18,7 @@ namespace trace {
 
 /// A row of the table of Bsdfs: what a model's Bsdf answers, whatever its type.
 struct BsdfRow {
-  std::string_view keyword;                  ///< the model's; "mixed" for several
+  std::string_view keyword;                  ///< keyword of the model; "mixed" for several
   void (*copy)(void* to, const void* from);  ///< to where nothing is yet
   void (*destroy)(void* bsdf);
   std::vector<ModelField> (*said)(void* bsdf);
@@ -33,7 +33,7 @@ struct BsdfRow {
   Real (*density)(const void* bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight);
   bool (*scatters)(const void* bsdf);
   bool (*hasGrain)(const void* bsdf);
-  /// The mix of three Bsdfs of this model.
+  /// The mixture of three of this model.
   Bsdf (*mix)(const Bsdf& a, const Bsdf& b, const Bsdf& c, const Real (&weight)[3]);
 };
 
@@ -80,7 +80,7 @@ class Bsdf {
 
   const BsdfRow& row() const { return *row_; }
   const void* data() const { return data_; }
-  /// The base of every model's Bsdf.
+  /// The terms that every Bsdf begins with.
   const WhittedTerms& terms() const { return *static_cast<const WhittedTerms*>(data()); }
   /// The model's fields at the place; of several what they have in common.
   std::vector<ModelField> said() const { return row_->said(const_cast<std::byte*>(data_)); }
