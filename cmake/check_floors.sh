@@ -14,7 +14,7 @@ shading
 scene
 formats render
 app
-cli studio'
+cli studio library'
 
 cd -- "${1:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
 seers="$(grep -rlE '^#include "geometry/shape_list.h"' src tests bench | sort | tr '\n' ' ')"
