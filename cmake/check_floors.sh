@@ -14,7 +14,7 @@ shading
 scene
 formats render
 app
-cli studio'
+cli studio library'
 
 cd -- "${1:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
 for list in material texture; do

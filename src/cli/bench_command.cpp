@@ -6,7 +6,7 @@
 #include "app/session.h"
 #include "cli/commands.h"
 #include "cli/formatted.h"
-#include "cli/json.h"
+#include "app/json.h"
 
 namespace trace::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/json.h"
+#include "app/json.h"
 #include "cli/metric_text.h"
 #include "image/codec.h"
 

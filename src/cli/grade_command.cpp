@@ -12,7 +12,7 @@
 #include "base/budget.h"
 #include "base/file.h"
 #include "cli/commands.h"
-#include "cli/json.h"
+#include "app/json.h"
 #include "cli/metric_text.h"
 #include "cli/terminal.h"
 

@@ -10,7 +10,7 @@
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "cli/json.h"
+#include "app/json.h"
 #include "cli/scene_facts.h"
 #include "scene/conventions.h"
 

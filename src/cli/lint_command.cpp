@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "base/printable.h"
 #include "cli/commands.h"
-#include "cli/json.h"
+#include "app/json.h"
 #include "cli/scene_facts.h"
 
 namespace trace::cli {

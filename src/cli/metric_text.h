@@ -4,7 +4,7 @@
 #include <string>
 
 #include "app/difference.h"
-#include "cli/json.h"
+#include "app/json.h"
 
 namespace trace::cli {
 

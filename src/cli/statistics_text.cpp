@@ -5,7 +5,7 @@
 
 #include "base/parallel.h"
 #include "cli/formatted.h"
-#include "cli/json.h"
+#include "app/json.h"
 
 namespace trace::cli {
 namespace {

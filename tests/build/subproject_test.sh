@@ -15,6 +15,8 @@ enable_testing()
 add_subdirectory("$checkout" trace EXCLUDE_FROM_ALL)
 add_library(mine OBJECT mine.cpp)
 target_link_libraries(mine PRIVATE Trace::image)
+add_library(through_the_library OBJECT library.cpp)
+target_link_libraries(through_the_library PRIVATE Trace::Trace)
 add_library(all_floors INTERFACE)
 target_link_libraries(all_floors INTERFACE Trace::base Trace::math Trace::accel Trace::image Trace::geometry
   Trace::shading Trace::scene Trace::formats Trace::render Trace::app)
@@ -24,8 +26,15 @@ cat >"$folder/mine.cpp" <<'END'
 static_assert(__cplusplus >= 202002L);
 int pixels() { return static_cast<int>(trace::Picture(2, 3).pixels.size()); }
 END
+cat >"$folder/library.cpp" <<'END'
+#include <traceray/traceray.h>
+#if __has_include("image/picture.h")
+#error "the library shows headers of the floors"
+#endif
+traceray::Node ball() { return traceray::Node("sphere", {{"scale", 2}}); }
+END
 cmake -S "$folder" -B "$folder/build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" >"$folder/log" 2>&1 || fail "configuring"
-cmake --build "$folder/build" --target mine >"$folder/log" 2>&1 || fail "compiling"
+cmake --build "$folder/build" --target mine through_the_library >"$folder/log" 2>&1 || fail "compiling"
 cmake --build "$folder/build" --target help >"$folder/log"
 ! grep -q 'test_' "$folder/log" || fail "Trace's tests are among the targets"
 (cd "$folder/build" && ctest -N) >"$folder/log" 2>&1

@@ -7,12 +7,12 @@
 #include <sstream>
 
 #include "app/drawing.h"
+#include "app/explain_json.h"
+#include "app/explain_text.h"
 #include "app/explained_rays.h"
 #include "app/ray_drawing.h"
 #include "app/session.h"
 #include "base/sanitized.h"
-#include "cli/explain_json.h"
-#include "cli/explain_text.h"
 #include "cli/program.h"
 #include "image/codec.h"
 #include "support/folder.h"
@@ -190,11 +190,11 @@ void expectFormsAgree(Session& session, bool draws) {
   for (const auto& [x, y] : pixels) {
     const Explanation explanation = session.explain(x, y, 0);
     const std::vector<ExplainedRay> rays = explainedRays(explanation.tree, session.scene());
-    const cli::PixelFacts facts{session.scene(),   explanation, rays,
-                                size.width,        size.height, session.film().ofSamples(x, y),
-                                session.settings()};
+    const PixelFacts facts{session.scene(),   explanation, rays,
+                           size.width,        size.height, session.film().ofSamples(x, y),
+                           session.settings()};
     EXPECT_TRUE(facts.agrees());
-    const json all = json::parse(cli::explainJson(facts));
+    const json all = json::parse(explainJson(facts));
     ASSERT_EQ(all["rays"].size(), rays.size());
     for (const json& ray : all["rays"]) {
       if (ray["kind"] == "light") continue;  // brings nothing back
@@ -210,7 +210,7 @@ void expectFormsAgree(Session& session, bool draws) {
       EXPECT_EQ(all["rendered"], json({rendered.r, rendered.g, rendered.b}));
       EXPECT_EQ(all["rays"][0]["radiance"], all["rendered"]);
     }
-    const std::string text = cli::explainText(facts, false), obj = raysAsObj(explanation.tree, rays);
+    const std::string text = explainText(facts, false), obj = raysAsObj(explanation.tree, rays);
     EXPECT_EQ(timesIn(text, ": depth "), rays.size());
     EXPECT_EQ(timesIn(obj, "\nl "), rays.size());
     EXPECT_FALSE(contains(text, "do NOT sum"));

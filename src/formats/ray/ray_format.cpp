@@ -22,6 +22,7 @@
 #include "formats/ray/ray_material.h"
 #include "formats/ray/ray_notes.h"
 #include "formats/ray/ray_objects.h"
+#include "formats/ray/ray_part.h"
 #include "formats/ray/ray_settings.h"
 #include "formats/ray/ray_students.h"
 #include "formats/ray/ray_syntax.h"
@@ -62,23 +63,34 @@ class Reader {
         objects_(findings_, materials_, time) {}
 
   void read() {
-    for (const Syntax::Remark& remark : syntax_.remarks())
-      messages_.warn(syntax_.place(remark.offset), remark.what, remark.hint);
-    const Item root = syntax_.root();
-    auto item = root.begin();
-    for (readHeader(item, root.end()); item != root.end(); ++item) topLevel(*item);
+    readItems();
     scene_.unusedMaterials = materials_.unused();
     if (Notes* notes = findings_.notes()) notes->last = materials_.current;
     findings_.finish();
     warnOfEmptiness();
     messages_.throwIfFailed();
     if (syntax_.isOfKind())
-      addKindDefaults(scene_, findings_.given(), syntax_.shortPlace((*root.begin()).offset()));
+      addKindDefaults(scene_, findings_.given(), syntax_.shortPlace((*syntax_.root().begin()).offset()));
+  }
+  /// Statements for a scene that has others.
+  PartGiven readPart() {
+    readItems();
+    findings_.finish();
+    messages_.throwIfFailed();
+    return {std::move(findings_.given()), hasCamera_, hasBackground_};
   }
   const TextureReader& textures() { return materials_.textures(); }
 
  private:
   // --- the file ---
+
+  void readItems() {
+    for (const Syntax::Remark& remark : syntax_.remarks())
+      messages_.warn(syntax_.place(remark.offset), remark.what, remark.hint);
+    const Item root = syntax_.root();
+    auto item = root.begin();
+    for (readHeader(item, root.end()); item != root.end(); ++item) topLevel(*item);
+  }
 
   /// Leaves `item` after the header.
   void readHeader(Item::Iterator& item, const Item::Iterator& end) {
@@ -137,8 +149,10 @@ class Reader {
   }
 
   void background(const Item& call) {
-    if (const std::optional<Item> block = blockOf(findings_, call))
-      scene_.background = readBackground(findings_, *block);
+    const std::optional<Item> block = blockOf(findings_, call);
+    if (!block) return;
+    hasBackground_ = true;
+    scene_.background = readBackground(findings_, *block);
   }
 
   const Syntax& syntax_;
@@ -147,7 +161,7 @@ class Reader {
   Findings findings_;
   Materials materials_;
   ObjectReader objects_;
-  bool hasCamera_ = false;
+  bool hasCamera_ = false, hasBackground_ = false;
 };
 
 }  // namespace
@@ -160,6 +174,14 @@ Scene readNoted(Syntax& syntax, Messages& messages, Real time, Notes& notes) {
   settle(syntax, moment, scene.inputs);
   Reader(syntax, scene, messages, moment, &notes).read();
   return scene;
+}
+
+PartGiven readPart(const std::string& file, std::string_view statements, Scene& scene, Messages& messages) {
+  const std::string text = std::string(kKind) + " 1\n" + std::string(statements);
+  Syntax syntax(file, text);
+  SceneTime moment(0);
+  settle(syntax, moment, scene.inputs);
+  return Reader(syntax, scene, messages, moment, nullptr).readPart();
 }
 
 }  // namespace rayfile

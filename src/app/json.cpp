@@ -1,4 +1,4 @@
-#include "cli/json.h"
+#include "app/json.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -6,7 +6,7 @@
 
 #include "base/match.h"
 
-namespace trace::cli {
+namespace trace {
 
 struct JsonWriter {
   static nlohmann::ordered_json converted(const Json& json) {
@@ -50,4 +50,4 @@ std::string Json::text(int indent) const {
                                            nlohmann::ordered_json::error_handler_t::replace);
 }
 
-}  // namespace trace::cli
+}  // namespace trace

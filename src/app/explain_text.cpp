@@ -1,4 +1,4 @@
-#include "cli/explain_text.h"
+#include "app/explain_text.h"
 
 #include <algorithm>
 #include <array>
@@ -11,23 +11,24 @@
 #include "app/path_ways.h"
 #include "base/printable.h"
 #include "base/text.h"
-#include "cli/console.h"
 #include "scene/options.h"
 
-namespace trace::cli {
+namespace trace {
 namespace {
 
 // --- numbers: for the eye, six digits ---
 
-std::string text(Real x) {
+std::string digits(Real x) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.6g", x + 0.0);  // no -0
   return buffer;
 }
-std::string text(Real x, Real y, Real z) { return text(x) + " " + text(y) + " " + text(z); }
-std::string text(const Vec3& v) { return "(" + text(v.x) + ", " + text(v.y) + ", " + text(v.z) + ")"; }
+std::string digits(Real x, Real y, Real z) { return digits(x) + " " + digits(y) + " " + digits(z); }
+std::string digits(const Vec3& v) {
+  return "(" + digits(v.x) + ", " + digits(v.y) + ", " + digits(v.z) + ")";
+}
 /// A grey is one number.
-std::string text(const Color& c) { return c.r == c.g && c.g == c.b ? text(c.r) : text(c.r, c.g, c.b); }
+std::string digits(const Color& c) { return c.r == c.g && c.g == c.b ? digits(c.r) : digits(c.r, c.g, c.b); }
 /// All digits: what reads back as the same bits.
 std::string exact(const Color& c) { return toText(c.r) + " " + toText(c.g) + " " + toText(c.b); }
 
@@ -69,11 +70,12 @@ class TreeText {
     std::string title = name;
     if (color_) title = std::string(look(node.kind).terminal) + name + "\033[0m";
     if (!explained.light.empty()) title += " to " + printable(explained.light);
-    if (node.wavelength != 0) title += " of " + text(node.wavelength) + " nm";
+    if (node.wavelength != 0) title += " of " + digits(node.wavelength) + " nm";
     const std::size_t room = std::size_t{4} * kMostIndented;
     if (rest.size() >= room) title += " of #" + std::to_string(node.parent);
-    text_ += first + title + ": depth " + std::to_string(node.depth) + ", weight " + text(node.weight) + "\n";
-    line("from " + text(node.ray.origin) + " along " + text(node.ray.direction));
+    text_ +=
+        first + title + ": depth " + std::to_string(node.depth) + ", weight " + digits(node.weight) + "\n";
+    line("from " + digits(node.ray.origin) + " along " + digits(node.ray.direction));
     for (const std::string& ignored : explained.ignored) line(printable("no surface for light: " + ignored));
     if (node.hit) hit(explained);
     if (node.kind == RayKind::shadow)
@@ -103,7 +105,7 @@ class TreeText {
     what += object.shape;
     if (const std::string place = shortPlace(object.place); !place.empty()) what += " (" + place + ")";
     line(printable(what + (object.isMesh ? " triangle " : " part ") + std::to_string(hit.part) +
-                   ", made of " + object.madeOf + ", at distance " + text(hit.t)));
+                   ", made of " + object.madeOf + ", at distance " + digits(hit.t)));
     const SurfacePoint& s = hit.surface;
     const WhittedTerms& whittedTerms = whitted(*node.bsdf);
     const bool lets = whittedTerms.transmits() || whittedTerms.passage == Passage::straight;
@@ -111,8 +113,8 @@ class TreeText {
         lets ? (hit.leaving ? "leaving it" : "entering it") : (hit.leaving ? "from inside" : "from outside");
     const Indices& indices = node.indices;
     const auto index = [&](Real value, std::uint32_t body, Real priority) {
-      if (!indices.nested) return text(value);
-      return text(value) + " (" + printable(fillingText(scene_, body, priority)) + ")";
+      if (!indices.nested) return digits(value);
+      return digits(value) + " (" + printable(fillingText(scene_, body, priority)) + ")";
     };
     if (whitted(*node.bsdf).passage == Passage::straight)
       side += ": a pane that bends nothing";
@@ -120,13 +122,14 @@ class TreeText {
       side += ": index " + index(indices.before, indices.objectBefore, indices.priorityBefore) + " -> " +
               index(indices.behind, indices.objectBehind, indices.priorityBehind);
     if (hit.twoSided && !lets) side += "; both sides are shaded";
-    if (hit.opacity < 1) side += "; opacity " + text(hit.opacity);
+    if (hit.opacity < 1) side += "; opacity " + digits(hit.opacity);
     const Vec2 uv = s.uv;
-    line(side + "; uv (" + text(uv.x) + ", " + text(uv.y) + ")");
-    line("point " + text(s.point) + ", normal " + text(s.normal));
-    if (!(s.shading == s.normal)) line("shading normal " + text(s.shading));
+    line(side + "; uv (" + digits(uv.x) + ", " + digits(uv.y) + ")");
+    line("point " + digits(s.point) + ", normal " + digits(s.normal));
+    if (!(s.shading == s.normal)) line("shading normal " + digits(s.shading));
     if (node.raised)
-      line("its rays to light start at " + text(*node.raised) + ", " + text(length(*node.raised - s.point)) +
+      line("its rays to light start at " + digits(*node.raised) + ", " +
+           digits(length(*node.raised - s.point)) +
            " off the facet: on the smooth surface of the corners' normals");
   }
 
@@ -148,31 +151,31 @@ class TreeText {
       const bool isHole = term.kind == Term::Kind::hole;
       const bool covers = (term.kind == Term::Kind::fog || isHole) && term.ray < 0 && term.value.g <= 0 &&
                           !isBlack(term.value);
-      std::string words = "+ " + kind + " " + text(value);
+      std::string words = "+ " + kind + " " + digits(value);
       if (covers) {
-        line(words + (isHole ? ": so much of the surface is not there: " + text(term.factor.r)
-                             : ": it covers " + text(term.factor.r) + " of what lies behind"));
+        line(words + (isHole ? ": so much of the surface is not there: " + digits(term.factor.r)
+                             : ": it covers " + digits(term.factor.r) + " of what lies behind"));
         continue;
       }
-      const std::string product = text(term.factor) + " * " + text(term.value);
+      const std::string product = digits(term.factor) + " * " + digits(term.value);
       if (term.ray >= 0)
         words += "\n" + margin_ + "    = " + product + " of #" + std::to_string(term.ray);
       else if (!(term.factor == Color(1)) && !isBlack(value))
         words += " = " + product;
       if (term.chance && term.chance->density > 0) {
         const ChanceTerm& chance = *term.chance;
-        words += "\n" + margin_ + "    random, density " + text(chance.density);
+        words += "\n" + margin_ + "    random, density " + digits(chance.density);
         if (chance.other > 0)
-          words += ", the other strategy " + text(chance.other) + ": counts " + text(chance.share);
+          words += ", the other strategy " + digits(chance.other) + ": counts " + digits(chance.share);
       }
       if (term.connection)
         words += "\n" + margin_ + "    s = " + std::to_string(term.connection->light) +
                  " from the light, t = " + std::to_string(term.connection->camera) +
-                 " from the camera: counts " + text(term.connection->share);
+                 " from the camera: counts " + digits(term.connection->share);
       if (term.scattered) words += "\n" + margin_ + "    light of " + printable(named.light);
       if (term.medium) words += "\n" + margin_ + "    " + medium(*term.medium, *named.medium);
       if (term.body)
-        words += "\n" + margin_ + "    it went in " + text(term.body->distance) + " away" +
+        words += "\n" + margin_ + "    it went in " + digits(term.body->distance) + " away" +
                  (term.body->steps > 0
                       ? ", and was scattered " + counted(static_cast<std::size_t>(term.body->steps), "time")
                       : "");
@@ -181,11 +184,11 @@ class TreeText {
                  " of the irradiance cache";
       if (term.photons)
         words += "\n" + margin_ + "    of " + counted(term.photons->count, "photon") + " within " +
-                 text(term.photons->radius);
+                 digits(term.photons->radius);
       line(words);
     }
-    if (!(node.through == Color(1))) line("* medium " + text(node.through) + " passes");
-    line("= " + text(node.radiance));
+    if (!(node.through == Color(1))) line("* medium " + digits(node.through) + " passes");
+    line("= " + digits(node.radiance));
   }
 
   static std::string medium(const MediumTerm& m, const NamedBody& body) {
@@ -193,10 +196,10 @@ class TreeText {
     switch (m.what) {
       case MediumTerm::What::covers: return "attenuation by media on the way";
       case MediumTerm::What::glows: return "emitted on the way";
-      case MediumTerm::What::scatters: return "scattered by " + by + " at distance " + text(m.t);
+      case MediumTerm::What::scatters: return "scattered by " + by + " at distance " + digits(m.t);
       case MediumTerm::What::follows: break;
     }
-    return "scattered by " + by + " at distance " + text(m.t) + ", where it comes from";
+    return "scattered by " + by + " at distance " + digits(m.t) + ", where it comes from";
   }
 
   void light(const Term& term, const ExplainedTerm& named, const RayNode& node) {
@@ -204,38 +207,38 @@ class TreeText {
     const bool none = isBlack(term.factor), always = term.ray < 0;
     const Vec3 normal = node.hit->surface.shading;
     const bool away = dot(light.arriving.toLight, normal) * dot(node.ray.direction, normal) >= 0;
-    line("+ " + printable(named.light) + " " + text(term.factor * term.value) +
+    line("+ " + printable(named.light) + " " + digits(term.factor * term.value) +
          (none     ? (away ? "; faces away, no shadow ray" : "; scatters none of it, no shadow ray")
           : always ? "; the part that no shadow takes away"
                    : ""));
     const Illumination& from = light.arriving;
-    const std::string lit = from.attenuation == 1 ? "" : " * attenuation " + text(from.attenuation);
+    const std::string lit = from.attenuation == 1 ? "" : " * attenuation " + digits(from.attenuation);
     if (none) return;
-    std::string highlight = " + specular " + text(light.scatter.specular);
+    std::string highlight = " + specular " + digits(light.scatter.specular);
     if (!isBlack(from.extraHighlight * light.scatter.specular))
-      highlight += " * (1 + extra " + text(from.extraHighlight) + " / light)";
-    line("    = light " + text(from.color) + lit + " * (diffuse " + text(light.scatter.diffuse) + highlight +
-         ")" +
+      highlight += " * (1 + extra " + digits(from.extraHighlight) + " / light)";
+    line("    = light " + digits(from.color) + lit + " * (diffuse " + digits(light.scatter.diffuse) +
+         highlight + ")" +
          (light.share == 1 ? ""
           : light.probability < 1
-              ? " * " + text(light.share) + ", for it was chosen among all lights with probability " +
-                    text(light.probability)
-              : " * " + text(light.share) + " as one of several rays"));
+              ? " * " + digits(light.share) + ", for it was chosen among all lights with probability " +
+                    digits(light.probability)
+              : " * " + digits(light.share) + " as one of several rays"));
     const Real shadow = whitted(*node.bsdf).shadow;
-    if (always) return line("      * " + text(1 - shadow) + " = 1 - the material's shadow");
-    line((shadow == 1 ? "" : "      * the material's shadow " + text(shadow) + "\n" + margin_) +
-         "      * passed " + text(term.value) + " of #" + std::to_string(term.ray));
+    if (always) return line("      * " + digits(1 - shadow) + " = 1 - the material's shadow");
+    line((shadow == 1 ? "" : "      * the material's shadow " + digits(shadow) + "\n" + margin_) +
+         "      * passed " + digits(term.value) + " of #" + std::to_string(term.ray));
   }
 
   void shadow(const ExplainedRay& explained) {
     const RayNode& node = *explained.node;
-    if (std::isfinite(node.tMost)) line("to the light at distance " + text(node.tMost));
+    if (std::isfinite(node.tMost)) line("to the light at distance " + digits(node.tMost));
     for (std::size_t i = 0; i < node.filters.size(); ++i) {
       const Filter& filter = node.filters[i];
-      line("* " + text(filter.factor) + " through " + printable(explained.filters[i].name) +
-           (std::isfinite(filter.t) ? " at distance " + text(filter.t) : " on its way"));
+      line("* " + digits(filter.factor) + " through " + printable(explained.filters[i].name) +
+           (std::isfinite(filter.t) ? " at distance " + digits(filter.t) : " on its way"));
     }
-    line("= " + text(node.radiance) + " passes");
+    line("= " + digits(node.radiance) + " passes");
   }
 
   const Scene& scene_;
@@ -276,9 +279,10 @@ std::string waysText(const RayTree& tree, const Scene& scene) {
     if (lines.empty()) lines = "The paths of the sample, s vertices from the light and t from the camera:\n";
     if (way.places() != places) lines += "  " + std::to_string(way.places()) + " places\n";
     places = way.places();
-    const std::string counts = way.camera == 1 ? "  "
-                                               : "  counts " + text(way.share) + ", brings " +
-                                                     text(way.brings) + ", alone " + text(way.alone()) + "; ";
+    const std::string counts = way.camera == 1
+                                   ? "  "
+                                   : "  counts " + digits(way.share) + ", brings " + digits(way.brings) +
+                                         ", alone " + digits(way.alone()) + "; ";
     lines += "    s = " + std::to_string(way.light) + ", t = " + std::to_string(way.camera) + counts + "#" +
              std::to_string(way.between < 0 ? way.end : way.between) + " " +
              printable(sentence(way, tree, scene)) + "\n";
@@ -316,7 +320,7 @@ std::string lightImageText(const PixelFacts& facts) {
   if (!image.brightest.empty()) lines += "The brightest of these paths:\n";
   for (std::size_t i = 0; i < image.brightest.size(); ++i) {
     const Landing& l = image.brightest[i];
-    lines += "  " + text(l.brings) + "  " + printable(facts.light->routes[i]) + ": --pixel " +
+    lines += "  " + digits(l.brings) + "  " + printable(facts.light->routes[i]) + ": --pixel " +
              std::to_string(l.x) + "," + std::to_string(l.y) + " --sample " + std::to_string(l.sample) + "\n";
   }
   return lines;
@@ -399,4 +403,4 @@ std::string explainText(const PixelFacts& facts, bool color) {
   return text;
 }
 
-}  // namespace trace::cli
+}  // namespace trace

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-namespace trace::cli {
+namespace trace {
 
 /// A member of an object. A template, for its Json is complete only after the class.
 template <class Value>
@@ -56,4 +56,4 @@ class Json {
   std::variant<std::nullptr_t, bool, double, std::int64_t, std::uint64_t, std::string, List, Object> value_;
 };
 
-}  // namespace trace::cli
+}  // namespace trace

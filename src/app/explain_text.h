@@ -10,7 +10,7 @@
 #include "render/explain.h"
 #include "scene/scene.h"
 
-namespace trace::cli {
+namespace trace {
 
 /// The pixel that the tree belongs to and whether it agrees with the picture.
 struct PixelFacts {
@@ -31,4 +31,4 @@ struct PixelFacts {
 /// Lines of about 100 columns; with colours of a terminal if asked.
 std::string explainText(const PixelFacts& facts, bool color);
 
-}  // namespace trace::cli
+}  // namespace trace

@@ -1,15 +1,15 @@
-#include "cli/explain_json.h"
+#include "app/explain_json.h"
 
 #include <array>
 #include <string_view>
 
+#include "app/json.h"
 #include "app/light_shares.h"
 #include "app/path_ways.h"
 #include "base/match.h"
-#include "cli/json.h"
 #include "geometry/materials.h"
 
-namespace trace::cli {
+namespace trace {
 namespace {
 
 // Numbers have all their digits; what is not finite becomes null.
@@ -312,4 +312,4 @@ std::string explainJson(const PixelFacts& facts) {
   return all + "\n]}\n";
 }
 
-}  // namespace trace::cli
+}  // namespace trace

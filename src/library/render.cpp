@@ -1,0 +1,280 @@
+// Rendering for programs: a thread of its own traces, while the caller's hears how far it is and may stop it.
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "app/denoising.h"
+#include "app/explain_json.h"
+#include "app/explain_text.h"
+#include "app/explained_rays.h"
+#include "app/output.h"
+#include "app/session.h"
+#include "base/budget.h"
+#include "base/file.h"
+#include "image/codec.h"
+#include "image/development.h"
+#include "library/guard.h"
+#include "library/images.h"
+#include "library/scene_state.h"
+#include "render/integrator.h"
+#include "render/passes.h"
+
+namespace traceray {
+
+struct RenderState {
+  trace::Session session;
+  trace::RenderResult result;
+  double seconds = 0;
+  std::optional<trace::Picture> rendered, picture;  ///< with and without noise
+  std::optional<Image> image;
+  std::map<std::string, Image> passes;
+
+  /// Linear light as a file of it has it, except for what two eyes see in one place.
+  const trace::Picture& light() {
+    if (!picture) {
+      rendered = session.film().picture();
+      picture = pictureOfFilm(session.film(), session.settings());
+    }
+    return *picture;
+  }
+  trace::Picture shown() {
+    return developed(trace::finished(light(), session.settings()), developmentOf(session.settings()));
+  }
+};
+
+namespace {
+
+/// Ends what goes on before the first ray.
+struct StoppedEarly {};
+
+/// Runs work() in a thread of its own; this one calls `progress` meanwhile.
+class WatchedWork {
+ public:
+  WatchedWork(trace::Job& job, const OnProgress& progress) : job_(job), progress_(progress) {}
+
+  /// Returns what `progress` threw.
+  template <class Work>
+  std::exception_ptr run(const Work& work) {
+    std::thread thread([&] {
+      trace::Budget budget([this] {
+        if (stop_ && early_) throw StoppedEarly{};
+      });
+      const trace::BudgetScope scope(&budget);
+      try {
+        work(budget);
+      } catch (...) {
+        failure_ = std::current_exception();
+      }
+      const std::lock_guard lock(mutex_);
+      done_ = true;
+      changed_.notify_one();
+    });
+    std::exception_ptr thrown;
+    for (bool done = false; !done;) {
+      try {
+        if (!stop_ && !progress_({job_.fraction(), seconds()})) stop();
+      } catch (...) {
+        thrown = std::current_exception();
+        stop();
+      }
+      std::unique_lock lock(mutex_);
+      done = changed_.wait_for(lock, std::chrono::milliseconds(100), [&] { return done_; });
+    }
+    thread.join();
+    if (thrown) return thrown;
+    if (failure_) std::rethrow_exception(failure_);
+    return nullptr;
+  }
+  /// From now on a stop keeps what is traced.
+  void tracingBegins() { early_ = false; }
+
+ private:
+  void stop() {
+    stop_ = true;
+    job_.cancel = true;
+  }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+  trace::Job& job_;
+  const OnProgress& progress_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::atomic<bool> stop_{false}, early_{true};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool done_ = false;
+  std::exception_ptr failure_;
+};
+
+double secondsOf(const trace::Session& session) {
+  for (const trace::Phase& phase : session.phases())
+    if (phase.name == "trace") return phase.wall;
+  return 0;
+}
+
+}  // namespace
+
+Render::Render(std::unique_ptr<RenderState> state) : state_(std::move(state)) {}
+Render::Render(Render&&) noexcept = default;
+Render& Render::operator=(Render&&) noexcept = default;
+Render::~Render() = default;
+
+int Render::width() const {
+  return trace::finished(state_->session.size(), state_->session.settings()).width;
+}
+int Render::height() const {
+  return trace::finished(state_->session.size(), state_->session.settings()).height;
+}
+bool Render::finished() const { return state_->result.end == trace::End::finished; }
+std::string Render::end() const {
+  switch (state_->result.end) {
+    case trace::End::cancelled: return "cancelled";
+    case trace::End::timeLimit: return "time limit";
+    case trace::End::outOfMemory: return "out of memory";
+    case trace::End::failed: return "failed: " + state_->result.failure;
+    case trace::End::finished: break;
+  }
+  return "finished";
+}
+double Render::seconds() const { return state_->seconds; }
+std::uint64_t Render::rays() const { return state_->result.statistics.allRays(); }
+std::vector<Problem> Render::warnings() const { return problemsOf(state_->session.messages().all()); }
+
+const Image& Render::image() const {
+  return guarded([&]() -> const Image& {
+    if (!state_->image) state_->image = imageOf(trace::finished(state_->light(), state_->session.settings()));
+    return *state_->image;
+  });
+}
+
+Image Render::shown() const {
+  return guarded([&] { return imageOf(state_->shown()); });
+}
+
+std::vector<std::string> Render::passes() const {
+  std::vector<std::string> names;
+  for (const trace::PassRow* row : passesOf(state_->session.settings())) names.emplace_back(row->name);
+  return names;
+}
+
+const Image& Render::pass(const std::string& name) const {
+  return guarded([&]() -> const Image& {
+    if (const auto found = state_->passes.find(name); found != state_->passes.end()) return found->second;
+    const trace::Settings& settings = state_->session.settings();
+    for (const trace::PassRow* row : passesOf(settings)) {
+      if (row->name != name) continue;
+      const int layer = layerOf(settings, row->name);
+      const trace::Picture& light = state_->light();
+      const trace::Picture values = layer < 0 ? change(*state_->rendered, light)
+                                              : state_->session.film().layer(static_cast<std::size_t>(layer));
+      return state_->passes.emplace(name, imageOf(values)).first->second;
+    }
+    std::string known;
+    for (const std::string& one : passes()) known += (known.empty() ? "" : ", ") + one;
+    throw Error(Error::Kind::usage, "pass: expected one that was rendered, found \"" + name + "\"",
+                known.empty() ? "render with the option passes, as in {\"passes\", \"" + name + "\"}"
+                              : "there are " + known);
+  });
+}
+
+std::string Render::write(const std::string& file) {
+  return guarded([&] {
+    trace::Session& session = state_->session;
+    for (const trace::Output& output : outputs(file, session.settings())) {
+      checkIsNoInput(output.path, session.scene().inputs);
+      checkEncodable(trace::pictureFormatFor(output.path), width(), height());
+      trace::checkWritable(output.path);
+    }
+    trace::PictureFiles files = session.filesFor(file);
+    return session.save(files);
+  });
+}
+
+std::string Render::png() const {
+  return guarded([&] {
+    const trace::Settings& settings = state_->session.settings();
+    return encodePicture(trace::pictureFormatFor("picture.png"), state_->shown(), settings.rounding,
+                         state_->session.metadata());
+  });
+}
+
+Explanation Render::explain(int x, int y, int sample) const {
+  return guarded([&] {
+    const trace::Session& session = state_->session;
+    const trace::Settings& settings = session.settings();
+    if (rowOf(settings).byChains)
+      throw Error(
+          Error::Kind::usage,
+          "explain: chains make this picture, in no order of pixels: expected another integrator than " +
+              std::string(rowOf(settings).name),
+          "{\"integrator\", \"path\"} has the same mean");
+    const trace::Region& r = settings.region;
+    if (!r.whole() && !(r.x0 <= x && x < r.x1 && r.y0 <= y && y < r.y1))
+      throw Error(Error::Kind::usage, "explain: the pixel lies outside of the region that was rendered");
+    const trace::Explanation found = session.explain(x, y, sample);
+    const trace::Size size = session.size();
+    const trace::Scene& scene = session.sceneOf(found.tree);
+    const std::vector<trace::ExplainedRay> rays = explainedRays(found.tree, scene);
+    // A render that was stopped may have a part of the pixel's samples.
+    const trace::Color rendered = finished() ? session.film().ofSamples(x, y) : found.pixel;
+    const trace::PixelFacts facts{.scene = scene,
+                                  .explanation = found,
+                                  .rays = rays,
+                                  .width = size.width,
+                                  .height = size.height,
+                                  .rendered = rendered,
+                                  .settings = settings};
+    Explanation explanation;
+    explanation.text_ = explainText(facts, false);
+    explanation.json_ = explainJson(facts);
+    explanation.pixel_ = {found.pixel.r, found.pixel.g, found.pixel.b};
+    explanation.agrees_ = facts.agrees();
+    return explanation;
+  });
+}
+
+Render Scene::render(const Options& options, const OnProgress& progress) const {
+  std::exception_ptr thrown;  // by `progress`: it is the caller's own
+  Render render = guarded([&] {
+    auto state = std::make_unique<RenderState>();
+    Opened of = opened(*state_, choicesOf(options));
+    trace::Session& session = state->session;
+    session.open(std::move(of.scene), of.settings, std::move(of.sceneAt));
+    if (!progress) {
+      session.build();
+      state->result = session.renderPicture();
+    } else {
+      WatchedWork watched(session.job(), progress);
+      try {
+        thrown = watched.run([&](trace::Budget& budget) {
+          budget.limitTime(of.settings.timeLimit);
+          session.build();
+          watched.tracingBegins();
+          state->result = session.renderPicture();
+        });
+      } catch (const StoppedEarly&) {
+        throw Error(Error::Kind::limit, "the render was stopped before its first ray");
+      }
+    }
+    state->seconds = secondsOf(session);
+    return Render(std::move(state));
+  });
+  if (thrown) std::rethrow_exception(thrown);
+  return render;
+}
+
+Explanation Scene::explain(int x, int y, const Options& options, int sample) const {
+  Options one = options;
+  if (x < 0 || y < 0)
+    throw Error(Error::Kind::usage, "explain: expected a pixel from (0, 0) at the top left on");
+  one.push_back({"region", Value::List{x, y, x + 1, y + 1}});
+  return render(one).explain(x, y, sample);
+}
+
+}  // namespace traceray
