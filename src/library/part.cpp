@@ -144,7 +144,7 @@ std::string PartState::keyword() const {
     case kLight:
       return trace::match(scene.lights[index()].light,
                           [](const auto& light) { return std::string(light.kKeyword); });
-    case kMaterial: return std::string(keywordOf(scene.materials[index()].model));
+    case kMaterial: return std::string(scene.materials[index()].model.keyword());
     case kCamera: return std::string(trace::Camera::kKeyword);
     default: return std::string(trace::Background::kKeyword);
   }
