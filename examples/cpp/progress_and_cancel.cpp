@@ -7,7 +7,7 @@
 int main(int, char** arguments) {
   const traceray::Scene scene = traceray::Scene::open(arguments[1]);
   traceray::Render picture =
-      scene.render({{"width", 64}, {"spp", 1000000}}, [](const traceray::Progress& progress) {
+      scene.render({{"width", 64}, {"spp", 65536}}, [](const traceray::Progress& progress) {
         std::cout << 100 * progress.fraction << " %\n";
         return progress.fraction == 0;  // false stops
       });

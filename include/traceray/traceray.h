@@ -361,8 +361,9 @@ class TRACERAY_API Scene {
 
   /// Adds a shape, a solid of solids (its field "objects" is a list of nodes), a light, the camera, the
   /// background or settings. Shapes take `scale`, `rotate` (axis and degrees) and `translate`, in this order,
-  /// or `transform` (four rows), `name`, and `material`: a node of a shading model, or of "material" with
-  /// fields such as `library`. Angles are in degrees. Throws Error(scene); the scene then stays as it was.
+  /// or `transform` (four rows) where they have no field of that name; `name`, and `material`: a node of a
+  /// shading model, or of "material" with fields such as `library`. Angles are in degrees. Throws
+  /// Error(scene); the scene then stays as it was.
   Part add(const Node& node);
   /// Adds statements of the scene language (docs/ray-format.md, docs/language.md), without a header.
   void addText(std::string_view statements);

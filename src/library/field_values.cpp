@@ -4,8 +4,15 @@
 #include <cmath>
 
 #include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/plane.h"
 
 namespace traceray {
+namespace {
+
+/// From a level plane, as the kind `Trace 1` has it, to the shape's own, z = 0.
+const trace::Affine kUpright{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}, {}};
+
+}  // namespace
 
 bool isSayable(const Value& value) {
   if (value.isNumber()) return std::isfinite(value.number());
@@ -63,11 +70,13 @@ Node nodeOf(const trace::Scene& scene, const trace::Shape& shape, const std::str
     if (isSayable(value)) node.fields.push_back({std::string(field), std::move(value)});
   });
   node.fields.push_back({"material", nodeOf(scene.materials[material])});
-  if (transform == trace::Affine{}) return node;
+  // The reader lays planes level, which is undone here.
+  const trace::Affine placed = shape.is<trace::Plane>() ? transform * kUpright : transform;
+  if (placed == trace::Affine{}) return node;
   Value::List rows;
-  const double offset[] = {transform.offset.x, transform.offset.y, transform.offset.z};
+  const double offset[] = {placed.offset.x, placed.offset.y, placed.offset.z};
   for (int i = 0; i < 3; ++i) {
-    const trace::Vec3& row = transform.row[i];
+    const trace::Vec3& row = placed.row[i];
     rows.push_back(Value::List{row.x, row.y, row.z, offset[i]});
   }
   rows.push_back(Value::List{0, 0, 0, 1});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "geometry/field_value.h"
 #include "geometry/shape.h"
 #include "shading/material.h"
 #include "traceray/traceray.h"
@@ -103,12 +104,15 @@ std::string rowsOf(const Node& node) {
   return text;
 }
 
-bool isShape(std::string_view keyword) {
-  return trace::findShapeType(keyword) || keyword == "mesh" || keyword == "trimesh";
-}
-
-bool isPlacement(const std::string& name) {
-  return name == kScale || name == kRotate || name == kTranslate || name == kTransform;
+/// Whether the field of the shape places it: a shape may have one of that name of its own.
+bool places(const std::string& keyword, std::string_view name) {
+  if (name != kScale && name != kRotate && name != kTranslate && name != kTransform) return false;
+  const trace::ShapeType* type = trace::findShapeType(keyword);
+  if (!type) return keyword == "mesh" || keyword == "trimesh";
+  bool own = false;
+  trace::forEachField(trace::Shape(*type),
+                      [&](const trace::AnyField& field, const auto&) { own = own || field.keyword == name; });
+  return !own;
 }
 
 }  // namespace
@@ -197,20 +201,19 @@ std::string Node::inLanguage() const {
     for (const Field& field : fields) values.push_back(field.value);
     return keyword + listText(values, "(", ", ", ")", plainText);
   }
-  // Solids and things beside shapes have fields of these names of their own: textures, for one.
-  const bool placed = isShape(keyword);
   std::string text, behind;
-  const auto put = [&](std::string_view name, const std::string& arguments) {
-    text += std::string(name) + "(" + arguments;
+  const auto put = [&](std::string_view name, const auto& argumentsOfIt) {
+    if (!find(name) || !places(keyword, name)) return;
+    text += std::string(name) + "(" + argumentsOfIt();
     behind += ")";
   };
-  if (placed && find(kTransform)) put(kTransform, rowsOf(*this));
-  if (placed && find(kTranslate)) put(kTranslate, argumentsOf(*this, kTranslate, {3}));
-  if (placed && find(kRotate)) put(kRotate, argumentsOf(*this, kRotate, {4}));
-  if (placed && find(kScale)) put(kScale, argumentsOf(*this, kScale, {1, 3}));
+  put(kTransform, [&] { return rowsOf(*this); });
+  put(kTranslate, [&] { return argumentsOf(*this, kTranslate, {3}); });
+  put(kRotate, [&] { return argumentsOf(*this, kRotate, {4}); });
+  put(kScale, [&] { return argumentsOf(*this, kScale, {1, 3}); });
   text += keyword + " { ";
   for (const Field& field : fields) {
-    if (placed && isPlacement(field.name)) continue;
+    if (places(keyword, field.name)) continue;
     if (find(field.name) != &field.value) continue;  // a later one counts
     text += field.name + " = " + fieldText(field) + "; ";
   }

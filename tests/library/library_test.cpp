@@ -119,14 +119,14 @@ TEST(Library, ProgressIsHeardAndStopsTheRender) {
   EXPECT_GE(calls, 1);
   EXPECT_TRUE(whole.finished());
   EXPECT_EQ(whole.image().values, scene.render(kSmall).image().values) << "watched or not";
-  const Render part = scene.render({{"width", 64}, {"spp", 1000000}},
+  const Render part = scene.render({{"width", 64}, {"spp", 65536}},
                                    [](const Progress& progress) { return progress.fraction == 0; });
   EXPECT_EQ(part.end(), "cancelled");
   EXPECT_FALSE(part.finished());
   EXPECT_GT(part.image().pixel(32, 32)[0], 0) << "what was traced is kept";
   struct Own {};
   EXPECT_THROW(
-      scene.render({{"width", 64}, {"spp", 1000000}},
+      scene.render({{"width", 64}, {"spp", 65536}},
                    [](const Progress& progress) { return progress.fraction == 0 || (throw Own{}, true); }),
       Own);
 }
@@ -208,7 +208,8 @@ TEST(Library, EveryKindIsBuiltByNameAndReadsBackAsItself) {
       const Part ball = scene.add(Node("sphere", {{"material", Node(kind.keyword)}}));
       Scene other;
       const Node said = ball.material().node();
-      EXPECT_EQ(other.add(Node("sphere", {{"material", said}})).material().node(), said) << kind.keyword;
+      EXPECT_EQ(other.add(Node("sphere", {{"material", said}})).material().node().inLanguage(),
+                said.inLanguage());
     }
     if (kind.category == "texture") {
       Scene scene;
@@ -226,7 +227,7 @@ TEST(Library, EveryKindIsBuiltByNameAndReadsBackAsItself) {
       Scene scene;
       Part light = scene.add(node);
       Scene other;
-      EXPECT_EQ(other.add(light.node()).node(), light.node()) << kind.keyword;
+      EXPECT_EQ(other.add(light.node()).node().inLanguage(), light.node().inLanguage());
       light.set("name", "key");
       EXPECT_EQ(scene.light("key").keyword(), kind.keyword);
     }
@@ -252,7 +253,7 @@ TEST(Library, EveryShapeReadsBackAsItself) {
     const Part part = scene.object("it");
     Scene other;
     other.add(part.node());
-    EXPECT_EQ(other.object("it").node(), part.node()) << kind.keyword;
+    EXPECT_EQ(other.object("it").node().inLanguage(), part.node().inLanguage());
     ++built;
   }
   EXPECT_GT(built, 15);

@@ -19,7 +19,7 @@ import traceray as tr
 
 CHECKOUT = pathlib.Path(os.environ["TRACE_CHECKOUT"])
 SMALL = dict(width=24, quality="none", integrator="whitted", spp=1)
-ENDLESS = dict(width=64, quality="none", integrator="path", spp=1000000)
+ENDLESS = dict(width=64, quality="none", integrator="path", spp=65536)
 
 
 def ball(**options):
