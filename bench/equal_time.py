@@ -144,7 +144,7 @@ def main():
         pictures = []
         for title, how in INTEGRATORS.items():
             samples = samples_for(given.ray, scene, given.width, how, given.seconds)
-            found = []  # of each seed: CPU seconds, error, that of 99 %
+            found = []  # a list for each seed: CPU seconds, error, that of 99 %
             for seed in range(1, given.seeds + 1):
                 (_, _, pixels), seconds = render(given.ray, scene, given.width, how + ["--seed", str(seed)], samples)
                 found.append((seconds, *errors(pixels, wanted)))

@@ -1,4 +1,5 @@
-// What is compared: something that has built a structure over a mesh's triangles and answers arrays of rays.
+// The interface of a measured kernel: it has built a structure over a mesh's triangles and answers arrays of
+// rays.
 #pragma once
 
 #include <memory>

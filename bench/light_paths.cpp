@@ -1,6 +1,6 @@
 // How good pictures of the integrators are for their time, on scenes where light is easy and hard to find:
 // CPU seconds times the relative error, on one thread. Prints a Markdown table; `bench_paths FOLDER [WIDTH]`
-// has the scenes of that folder, 96 pixels wide if nothing is said.
+// has the scenes of that folder, 96 pixels wide by default.
 //
 // The error is that against a picture by chains of very many samples, the mean of four seeds: of each pixel's
 // luminance the square of the difference over reference^2 + 0.01 (mean of the reference)^2, averaged over the
@@ -33,7 +33,7 @@ const std::vector<Case> kCases{
 };
 
 struct Measured {
-  double seconds = 0;  ///< of a picture
+  double seconds = 0;  ///< seconds of a picture
   double error = 0, errorOfMost = 0, mean = 0;
 };
 

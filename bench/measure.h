@@ -42,7 +42,7 @@ struct MeshReport {
 
 struct Plan {
   int passes = 5;
-  double scale = 1;  ///< of the mesh and its view
+  double scale = 1;  ///< scale of the mesh and its view
   int size = 0;      ///< pixels on a side; 0 takes the view's
   int builds = 3;
   std::string embree{};  ///< configuration of its device

@@ -12,7 +12,7 @@ namespace {
 
 struct Property {
   std::string name, type;
-  std::string countType;  ///< of a list; empty for a single value
+  std::string countType;  ///< count type of a list; empty for a single value
 };
 
 struct Element {

@@ -9,7 +9,7 @@ namespace trace::bench {
 namespace {
 
 constexpr int kShininess = 40;
-constexpr int kDigits = 9;  // of every float
+constexpr int kDigits = 9;  // digits of every float
 
 std::ostream& operator<<(std::ostream& out, const Vec3& v) { return out << v.x << ',' << v.y << ',' << v.z; }
 

@@ -26,7 +26,7 @@ double heapBytes() {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-/// What the world says of itself if it does, else how much the heap has grown.
+/// The size that the World reports if it does, else how much the heap has grown.
 template <class W>
 double bytesOf(const W& world, double heapGrowth) {
   if constexpr (requires { world.bytes(); }) return static_cast<double>(world.bytes());

@@ -2,7 +2,7 @@
 # Prints the graph of floors (ARCHITECTURE.md) from the #include lines of src/, and fails when one goes
 # upward, sideways or through "..". CMake's include paths already keep floors apart; this shows it, and
 # catches what a relative path could smuggle past them. It also fails when another file than the two that need it
-# sees the structs of all shapes, which is dear to compile. Usage: check_floors.sh [checkout]
+# sees the structs of all shapes, which is slow to compile. Usage: check_floors.sh [checkout]
 set -euo pipefail
 
 # From the bottom. Floors on one line stand side by side and never see each other.
@@ -17,6 +17,16 @@ app
 cli studio library'
 
 cd -- "${1:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
+for list in material texture; do
+  seers="$(grep -rlE "^#include \"shading/${list}_list.h\"" src | sort | tr '\n' ' ')"
+  case "$list $seers" in
+    'material src/shading/bsdf.cpp src/shading/material_table.cpp ' | 'texture src/shading/texture_table.cpp ') ;;
+    *)
+      echo "only the table of ${list}s and their Bsdfs include shading/${list}_list.h, not: $seers"
+      exit 1
+      ;;
+  esac
+done
 seers="$(grep -rlE '^#include "geometry/shape_list.h"' src tests bench | sort | tr '\n' ' ')"
 if [[ "$seers" != 'src/geometry/shape_table.cpp src/render/world_queries.cpp ' ]]; then
   echo "only the table of shapes and the World's queries include geometry/shape_list.h, not: $seers"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Checks that docs/limits.md keeps its word: every promise names tests, and each of them exists. A name may hold
+# Checks that every guarantee of docs/developers/limits.md names tests, and that each of them exists. A name may contain
 # `*`, as of tests over a list. Usage: check_limits.sh BUILD_FOLDER [checkout]
 set -euo pipefail
 
 build="$(cd -- "$1" && pwd -P)"
 cd -- "${2:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
-# From a folder of its own, for ctest writes over the log of a run that goes on.
+# From a folder of its own, for ctest writes over the log of a running test.
 listing="$(mktemp -d)"
 trap 'rm -rf -- "$listing"' EXIT
 echo "subdirs(\"$build\")" >"$listing/CTestTestfile.cmake"
@@ -21,9 +21,9 @@ while IFS='|' read -r _ promise names _; do
     [[ -n "$name" ]] || continue
     found=1
     pattern="$(sed 's/[.[\/]/\\&/g; s/\*/.*/g' <<<"$name")"
-    grep -qx -- "$pattern" <<<"$tests" || { echo "docs/limits.md: no test is called $name"; wrong=$((wrong + 1)); }
+    grep -qx -- "$pattern" <<<"$tests" || { echo "docs/developers/limits.md: no test is called $name"; wrong=$((wrong + 1)); }
   done < <(grep -oE '[a-z]+\.[A-Za-z0-9_/*]+(\.[A-Za-z0-9_/*]+)?' <<<"$names")
-  ((found)) || { echo "docs/limits.md: no test stands behind:$promise"; wrong=$((wrong + 1)); }
-done < <(grep '^|' docs/limits.md)
+  ((found)) || { echo "docs/developers/limits.md: no test stands behind:$promise"; wrong=$((wrong + 1)); }
+done < <(grep '^|' docs/developers/limits.md)
 echo "$promises promises, $wrong without a test"
 ((promises > 0 && wrong == 0))

@@ -10,7 +10,7 @@ while read -r name; do
   [[ $name == ../shared* ]] && continue  # which a checkout may lack
   names=$((names + 1))
   [[ -e "$name" || -e "src/$name" ]] || { echo "ARCHITECTURE.md: there is no $name"; wrong=$((wrong + 1)); }
-done < <(grep -oE '`[a-z_.]+(/[a-z_]+)*/[a-z_]*(\.(h|cpp|sh))?`|docs/[a-z-]+\.md' ARCHITECTURE.md | tr -d '`' | sort -u)
+done < <(grep -oE '`[a-z_.]+(/[a-z_]+)*/[a-z_]*(\.(h|cpp|sh))?`|docs/[a-z/-]+\.md' ARCHITECTURE.md | tr -d '`' | sort -u)
 
 mapfile -t files < <(find src -name '*.cpp' ! -name '*_avx*' ! -path 'src/render/integrators/*' | sort)
 locals="$(awk '

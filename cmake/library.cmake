@@ -2,7 +2,7 @@
 #
 # It is a shared library: a static one would hand OpenEXR, zlib and ten archives to whoever links it. The floors are
 # compiled once for everything, so that all of them are position-independent. That costs `ray` next to nothing, since names are
-# hidden (no call looks them up at run time) and threads' variables are found as in a program (docs/performance.md).
+# hidden (no call looks them up at run time) and threads' variables are found as in a program (docs/developers/performance.md).
 # All names that others see begin with this one: `trace` is a module of Python, libtrace another library, `ray` a package.
 set(TRACE_LIBRARY_NAME traceray)
 

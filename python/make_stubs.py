@@ -2,6 +2,7 @@
 
 import sys
 
+del sys.path[0]  # this folder, whose package lacks the compiled part
 import traceray as tr
 
 NUMBER, VECTOR, COLOR = "float", "Sequence[float]", "float | Sequence[float] | Node"

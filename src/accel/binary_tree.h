@@ -23,9 +23,9 @@ inline void swap(BoxedItem& a, BoxedItem& b) {
 /// A node of the binary tree, with the box of all that hangs on it.
 struct alignas(16) Branch {
   float low[3];
-  std::uint32_t first;  ///< of the left child, the right one follows; of a leaf: the first of its items
+  std::uint32_t first;  ///< first of the left child, the right one follows; of a leaf: the first of its items
   float high[3];
-  std::uint32_t count;  ///< of a leaf's items; 0 for inner nodes
+  std::uint32_t count;  ///< count of a leaf's items; 0 for inner nodes
 };
 inline Bounds boxOf(const Branch& branch) {
   return {simd::Float4::loadThree(branch.low), simd::Float4::loadThree(branch.high)};
@@ -38,7 +38,7 @@ inline void set(Branch& branch, const Bounds& box, std::uint32_t first, std::uin
   branch.count = count;
 }
 
-/// What visiting a node costs, and a leaf, whose items are tested so many at a time.
+/// The cost of visiting a node, and a leaf, whose items are tested so many at a time.
 inline constexpr float kCostOfNode = 0.5f, kCostOfLeaf = 1;
 inline float leafCost(std::uint32_t count, std::uint32_t leafSize) {
   return kCostOfLeaf * static_cast<float>((count + leafSize - 1) / leafSize);

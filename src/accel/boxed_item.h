@@ -1,4 +1,4 @@
-// What a hierarchy is built over.
+// The items of a hierarchy.
 #pragma once
 
 #include <cmath>

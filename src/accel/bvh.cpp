@@ -35,9 +35,9 @@ struct Bvh::Builder {
   struct Forests {
     std::array<float, 8> cost;
     std::array<std::uint8_t, 9> left;
-    float itemArea;  ///< of the boxes of all items
+    float itemArea;  ///< item area of the boxes of all items
   };
-  std::vector<Forests> forests = std::vector<Forests>(branches.size() / 2);  ///< of inner branches, by pairs
+  std::vector<Forests> forests = std::vector<Forests>(branches.size() / 2);  ///< inner branches, by pairs
   Forests& forestsOf(const Branch& inner) { return forests[inner.first / 2]; }
   std::array<float, 8> costsOf(const Branch& b) {
     if (b.count == 0) return forestsOf(b).cost;

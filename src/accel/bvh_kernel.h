@@ -28,7 +28,7 @@ struct BvhKernel {
 
 /// Whether this machine runs what is compiled for AVX2 (and fused multiply-add).
 bool hasAvx2();
-/// The same for AVX-512 with its 256-bit forms.
+/// The kernel for AVX-512 with its 256-bit forms.
 bool hasAvx512();
 
 /// The kernels that this machine can run, the best first.

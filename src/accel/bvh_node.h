@@ -1,4 +1,4 @@
-// What a hierarchy's nodes hold and what a query needs of a ray: plain data, shared by the code for all
+// The contents of a hierarchy's nodes and the ray data of a query: plain data, shared by the code for all
 // instruction sets.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace trace {
 
 /// Eight children: their boxes, lane by lane, and what they are.
 struct alignas(32) BvhNode {
-  static constexpr int kMostDepth = 160;               ///< of any tree
+  static constexpr int kMostDepth = 160;               ///< most depth of any tree
   static constexpr std::uint32_t kLeaf = 0x80000000u;  ///< set for leaves; the other bits number the leaf
 
   float plane[3][2][8];    ///< axis, low or high, lane; an empty lane has low > high
@@ -40,7 +40,7 @@ struct NodeWatch {
 
 /// The whole of a hierarchy.
 struct BvhExtent {
-  double low[3], high[3];  ///< of all boxes
+  double low[3], high[3];  ///< low and high of all boxes
   float reach;             ///< coordinates up to this are precise enough in float
 };
 

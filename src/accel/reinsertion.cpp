@@ -157,7 +157,7 @@ class Top {
   std::vector<Branch> nodes_;     ///< `first` of a leaf is the place where it was at first; its count is 1
   std::vector<Branch> original_;  ///< those that were there at first
   std::vector<int> heights_;      ///< how far below each the deepest item lies, at most
-  std::vector<std::uint32_t> parents_;  ///< of pairs
+  std::vector<std::uint32_t> parents_;  ///< parents of pairs
   std::vector<std::uint32_t> pairs_;    ///< where they lie in the tree
   std::vector<Waiting> waiting_;        // kept to save allocations
 };

@@ -195,7 +195,7 @@ template <bool kNearestFirst, class Nodes, class VisitLeaf>
   }
 }
 
-/// What a BvhKernel does: the same with the visitor as a function and its context.
+/// Does the work of a BvhKernel with the visitor as a function and its context.
 template <class Nodes>
 void queryLeaves(const BvhNode* nodes, const BvhExtent& extent, const Vec3& origin, const Vec3& direction,
                  const double& tMost, bool nearestFirst, Nodes& visited, bool (*visit)(void*, std::uint32_t),

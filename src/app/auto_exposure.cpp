@@ -11,11 +11,11 @@ namespace trace {
 namespace {
 
 constexpr double kMiddle = 0.52;  // the mean of the values shown, 0 to 1: a little above middle grey in sRGB
-constexpr double kBright = 0.85;  // what the brightest are shown as at most, but for
+constexpr double kBright = 0.85;  // what the brightest are shown as at most, except for
 constexpr double kLights = 0.05;  // this share: lights and highlights,
 constexpr double kLamp = 30;  // and what is so many times as bright as the middle one: lamps, however large
 constexpr double kMostStops = 30;  // up or down
-constexpr double kNothing = 1e-6;  // of the brightest: black, as far as an eye tells
+constexpr double kNothing = 1e-6;  // relative to the brightest: black, as far as an eye sees
 
 double luminanceShown(const Color& color, Development development, double stops) {
   development.exposure += stops;

@@ -25,10 +25,10 @@ class BackgroundRender {
 
   struct State {
     Phase phase = Phase::idle;
-    double fraction = 0;              ///< of the real picture
+    double fraction = 0;              ///< fraction of the real picture
     double elapsed = 0;               ///< seconds since start()
     std::optional<double> remaining;  ///< seconds
-    std::uint64_t number = 0;         ///< of the start() that this is about
+    std::uint64_t number = 0;         ///< number of the start() that this is about
     bool working() const { return phase != Phase::idle && phase < Phase::finished; }
   };
 
@@ -38,14 +38,14 @@ class BackgroundRender {
   BackgroundRender& operator=(const BackgroundRender&) = delete;
 
   void start(std::shared_ptr<const Scene> scene, const Settings& settings, SceneAt sceneAt = {});
-  /// What is done stays.
+  /// Stops the render; finished parts stay.
   void stop();
 
   State state();
   /// The scene, settings and World of the last picture that was begun; null before. They never change; the
   /// studio asks them for the rays of a pixel.
   std::shared_ptr<const Session> session() const;
-  /// What is to be seen now, at the end without noise if that is asked for; of size 0 before the first.
+  /// The picture to show now, denoised at the end if that is asked for; of size 0 before the first.
   /// Copies: for every few frames, not for each.
   Picture picture() const;
   /// Changes whenever picture() may have changed.
@@ -80,7 +80,7 @@ class BackgroundRender {
   std::chrono::steady_clock::time_point begin_;
   RemainingTime remaining_;
   double tracingBegan_ = 0;          // seconds after begin_
-  std::optional<Picture> denoised_;  // of session_, once it is rendered
+  std::optional<Picture> denoised_;  // denoised of session_, once it is rendered
   RenderResult result_;
   std::vector<Message> messages_;
   std::thread thread_;

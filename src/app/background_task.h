@@ -16,7 +16,7 @@
 
 namespace trace {
 
-/// Asked now and then by a long job; true: nobody wants the answer any more.
+/// Asked now and then by a long job; true: the answer is not needed any more.
 using Cancelled = std::function<bool()>;
 
 /// Which jobs of a BackgroundTask are done.

@@ -51,7 +51,7 @@ std::string sentence(const ChainMove& move) {
                   channels(move.brings).c_str(), move.light);
   else
     std::snprintf(text, sizeof text,
-                  "%s, to pixel %d, %d, brings %s there: light %.4g after %.4g, a chance of %.3g: %s",
+                  "%s, to pixel %d, %d, contributes %s there: light %.4g after %.4g, acceptance %.3g: %s",
                   look(move.kind).name.data(), move.x, move.y, channels(move.brings).c_str(), move.light,
                   move.before, move.chance, move.made ? "made" : "not made");
   return text;

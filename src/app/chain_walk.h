@@ -15,7 +15,7 @@ struct ChainWalk {
   int x = 0, y = 0;                ///< the pixel by which it was to come
   std::int64_t tile = 0;           ///< whose first wave of samples the chain makes
   std::vector<ChainMove> moves{};  ///< its start, then its moves
-  int nearest = 0;                 ///< of these, that came to the pixel, or nearest to it
+  int nearest = 0;                 ///< index of the move that came to the pixel, or nearest to it
 
   /// The one that brought the chain to where it is offered `moves[index]`; -1 for the start, which had none.
   int before(int index) const;
@@ -46,7 +46,7 @@ class ChainWalker {
   Metropolis chains_;
 };
 
-/// The same in the background, for a window that asks in every frame.
+/// Follows a chain in the background, for a window that asks in every frame.
 class ChainInspector {
  public:
   /// The walk of the chain near that pixel, and the rays of its move `index`, or of the nearest one for -1.
@@ -57,7 +57,7 @@ class ChainInspector {
   bool busy() const { return task_.busy(); }
 
   const ChainWalk* walk() const { return shown_.walk.get(); }
-  int index() const { return shown_.index; }  ///< of the move whose rays are shown
+  int index() const { return shown_.index; }  ///< index of the move whose rays are shown
   /// The rays of what was offered, and of the sample where the chain was; null if there are none.
   const TracedPixel* offered() const { return shown_.offered.get(); }
   const TracedPixel* before() const { return shown_.before.get(); }
@@ -71,7 +71,7 @@ class ChainInspector {
     std::shared_ptr<const TracedPixel> offered, before;
   };
   Shown shown_;
-  std::shared_ptr<const Session> session_;  // of what was asked for
+  std::shared_ptr<const Session> session_;  // session of what was asked for
   int x_ = 0, y_ = 0, index_ = -1;
   BackgroundTask<Shown> task_;
 };

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kBegin = "Trace checkpoint 1\n", kProgram = "Program: ";
 
-/// What decides about the film: of the options, all but those that are applied to it later.
+/// The settings that decide about the film: all options but those that are applied to it later.
 std::string identityOf(const Metadata& metadata, const Settings& settings, const std::string& program) {
   std::string text = std::string(kProgram) + program + "\n";
   for (const auto& [key, value] : metadata)
@@ -46,8 +46,8 @@ std::string identityOf(const Metadata& metadata, const Settings& settings, const
 struct Head {
   std::string identity;
   std::int64_t done = 0;   ///< samples of tiles
-  std::string hash;        ///< of the film
-  std::size_t length = 0;  ///< of these lines, in bytes
+  std::string hash;        ///< hash of the film
+  std::size_t length = 0;  ///< length of these lines, in bytes
 };
 
 /// Digits alone.
@@ -60,7 +60,7 @@ std::optional<std::int64_t> countIn(std::string_view text) {
 
 /// Nothing of a file that is no checkpoint.
 std::optional<Head> headOf(const std::string& path) {
-  constexpr std::size_t kLongest = 1 << 20;  // of lines that say of which picture it is
+  constexpr std::size_t kLongest = 1 << 20;  // longest of lines that say of which picture it is
   if (!isOrdinaryFile(path)) return {};      // a pipe might never answer
   std::ifstream file(path, std::ios::binary);
   std::string begin(kLongest, '\0');
@@ -115,7 +115,7 @@ std::map<std::string, std::string> partsOf(const std::string& identity) {
   return parts;
 }
 
-/// What two pictures differ in.
+/// The options in which two pictures differ.
 struct Difference {
   std::string what;      ///< for a person
   std::size_t size = 0;  ///< how far they are apart

@@ -1,5 +1,5 @@
-// What an unfinished render leaves beside its picture so that the next run goes on where it ended:
-// NAME.png.checkpoint, or with -2, -3, ... where others lie.
+// The checkpoint that an unfinished render leaves next to its picture so that the next run continues where it
+// ended: NAME.png.checkpoint, or with -2, -3, ... where others lie.
 //
 // A few lines of text say of which picture it is, and a Film (Film::saved) follows. It is written whole or
 // not at all. A checkpoint of another picture is never replaced, nor is one that holds more.
@@ -46,7 +46,7 @@ class Checkpoint {
   void remove(const Film& film);
 
  private:
-  /// What lies beside the picture, by its number.
+  /// The checkpoints next to the picture, by their number.
   std::vector<std::string> all() const;
   bool isOurs(const std::string& path) const;
 

@@ -167,7 +167,7 @@ Real area(const std::vector<Vec2>& polygon) {
 /// A few places in the part of one polygon inside the other (Sutherland and Hodgman 1974); none if that is
 /// not more than an edge.
 std::vector<Vec3> overlap(const Face& a, const Face& b) {
-  constexpr Real kLeastShare = 1e-6;  // of the smaller face
+  constexpr Real kLeastShare = 1e-6;  // relative to the smaller face
   const int axis = longest(a.normal);
   const auto flat = [&](const Face& face) {
     std::vector<Vec2> polygon;
@@ -236,9 +236,9 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> overlappingFaces(
 
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
   std::size_t tests = 0, places = 0;
-  constexpr Real kNear = 1e-6;  // of keys; whether it is one plane, inOnePlane() decides
+  constexpr Real kNear = 1e-6;  // tolerance of keys; whether it is one plane, inOnePlane() decides
   for (std::size_t begin = 0; begin < faces.size();) {
-    std::size_t end = begin + 1;  // of keys without a gap
+    std::size_t end = begin + 1;  // end of a run of keys without a gap
     bool several = false;
     while (end < faces.size() && faces[end].key - faces[end - 1].key <= kNear) {
       several = several || faces[end].object != faces[begin].object;

@@ -21,9 +21,9 @@ namespace trace {
 namespace {
 
 constexpr int kCellsAcross = 64, kCellsDown = 48;
-constexpr double kDarkLevel = 2;     // of 255; a pixel below it is black to the eye
-constexpr double kNearlyAll = 0.98;  // of the picture
-constexpr double kMostSeen = 0.95;   // of the cells in which there is an object
+constexpr double kDarkLevel = 2;     // a level of 255; a pixel below it is black to the eye
+constexpr double kNearlyAll = 0.98;  // fraction of the picture
+constexpr double kMostSeen = 0.95;   // fraction of the cells in which there is an object
 constexpr double kWanted = 90;       // the mean level of what is seen with the cure
 
 /// The settings of a picture of cells: nothing that only the finished picture needs.
@@ -46,8 +46,8 @@ Settings ofCells(Settings settings) {
   return settings;
 }
 
-/// The level that the eye judges by: the brightest channel, as the file will have it but for what needs the
-/// whole picture.
+/// The level that the eye judges by: the brightest channel, as the file will have it except for what needs
+/// the whole picture.
 double levelOf(const Color& linear, const Development& development) {
   const Color shown = developed(linear, development);
   const double most = std::max({shown.r, shown.g, shown.b});
@@ -169,7 +169,7 @@ std::optional<Cure> strongerLight(const Scene& scene, const Settings& settings, 
     best = Cure{source.place,
                 far ? "; this light fades with the square of the distance (quadratic_attenuation_coeff = 1)"
                     : "; this light is too weak",
-                field + " in this light brings what is seen to a mean level of about 90" +
+                field + " in this light brings the visible objects to a mean level of about 90" +
                     (far ? "; constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0; keeps it from "
                            "fading"
                          : "")};
@@ -197,7 +197,7 @@ std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, 
   const bool none = scene.lights.empty();
   const bool ray = scene.format == "ray";
   return Cure{
-      Place{.file = scene.file}, none ? "; the scene has no light" : "; no light reaches what is seen",
+      Place{.file = scene.file}, none ? "; the scene has no light" : "; no light reaches the visible objects",
       ray ? "point_light { position = " + rounded(light.position) + "; color = " + rounded(Color(*factor)) +
                 "; constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0; } shines from the eye"
           : "add a light that shines where the camera looks"};
@@ -214,7 +214,7 @@ std::optional<Cure> lookAround(const Scene& scene) {
   return Cure{Place{.file = scene.file}, "; no object is in the picture",
               scene.format == "ray"
                   ? "look_at = " + rounded(all.center()) +
-                        "; in the camera, in place of viewdir, turns it to the objects"
+                        "; in the camera, in place of viewdir, points it at the objects"
                   : "turn the camera to " + rounded(all.center()) + ", the middle of the objects"};
 }
 

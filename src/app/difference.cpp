@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "image/codec.h"
 #include "image/flip.h"
+#include "image/picture_name.h"
 
 namespace trace {
 namespace {
@@ -22,11 +23,11 @@ constexpr std::array kMetrics{
            [](const PictureDifference& d) { return d.numbers.rmse; }},
     Metric{"psnr", "peak signal to noise ratio", "dB", true,
            [](const PictureDifference& d) { return d.numbers.psnr; }},
-    Metric{"flip", "mean FLIP error, what an eye sees: 0 nothing, 1 the most", "of 1", false,
+    Metric{"flip", "mean FLIP error, the perceived difference: 0 none, 1 the most", "of 1", false,
            [](const PictureDifference& d) { return d.flip; }},
     Metric{"beyond", "values that differ by more than the tolerance", "%", false,
            [](const PictureDifference& d) { return 100 * d.numbers.fractionBeyond; }},
-    Metric{"pixels", "pixels with such a value", "%", false,
+    Metric{"pixels", "pixels that differ", "%", false,
            [](const PictureDifference& d) { return 100 * d.numbers.pixelFractionBeyond; }},
 };
 
@@ -34,8 +35,8 @@ constexpr std::array kMetrics{
 
 LoadedPicture loadPicture(const std::string& path) {
   const Work work("reading a picture");
-  const std::string bytes = readFile(path);
-  return {decodePicture(bytes, path), !pictureFormatOf(bytes, path).keepsBright};
+  const std::string bytes = readFile(pictureName(path).file);
+  return {decodePicture(bytes, path), !pictureFormatOf(bytes, path).keepsBright, pictureRemark(bytes, path)};
 }
 
 PictureDifference difference(LoadedPicture reference, LoadedPicture test, const DifferenceOptions& options) {

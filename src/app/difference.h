@@ -15,9 +15,10 @@ namespace trace {
 /// A picture as it came from a file, or from a render that was given levels.
 struct LoadedPicture {
   Picture picture;
-  bool levels = true;  ///< 8 bits a channel
+  bool levels = true;    ///< 8 bits a channel
+  std::string remark{};  ///< a warning, of what is not shown; may be empty
 };
-/// Throws Error(Fault::io), Error(Fault::limit).
+/// `path` may choose a layer (image/picture_name.h). Throws Error(Fault::io), Error(Fault::limit).
 LoadedPicture loadPicture(const std::string& path);
 
 /// Numbers are in levels, 0 to 255, when both pictures have 8 bits a channel, else in linear values.
@@ -26,7 +27,7 @@ struct PictureDifference {
   bool levels = true;
   double tolerance = 0;  ///< what does not count as "beyond", in the same unit
   Comparison numbers;
-  std::vector<double> flipErrors;  ///< of each pixel; empty when the sizes differ
+  std::vector<double> flipErrors;  ///< flip errors of each pixel; empty when the sizes differ
   double flip = 1;                 ///< their mean
 
   std::string_view unit() const { return levels ? "levels" : "values"; }
@@ -35,7 +36,7 @@ struct PictureDifference {
 
 struct DifferenceOptions {
   double tolerance = 0;
-  double pixelsPerDegree;  ///< of the eye that FLIP stands for
+  double pixelsPerDegree;  ///< pixels per degree of the eye that FLIP stands for
 };
 PictureDifference difference(LoadedPicture reference, LoadedPicture test, const DifferenceOptions& options);
 

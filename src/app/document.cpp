@@ -57,7 +57,7 @@ void keepAside(const std::string& file, const std::string& says, Messages& messa
   }
   if (!there) writeFile(aside, says);
   messages.warn(Place{.file = file},
-                "the file as it was is kept as " + std::filesystem::path(aside).filename().string());
+                "the old file is kept as " + std::filesystem::path(aside).filename().string());
 }
 
 /// Is it one text, though perhaps read at two moments?
@@ -194,8 +194,7 @@ bool Document::apply(const Change& change, const Reading& reading) {
     next.scene = reading.scene;
     next.text = reading.text;
     if (wasEdited)
-      messages_.warn(Place{.file = file_},
-                     change.option + " read the file again, without what was edited here",
+      messages_.warn(Place{.file = file_}, change.option + " read the file again, without your edits",
                      "undo brings it back");
   }
   push(std::move(next), change.continues);
@@ -218,7 +217,7 @@ SceneAt Document::sceneAt() const {
   return [text = now.text, scene = now.scene, edited = std::string(),
           rules = ReadScope::current()](Real time) mutable {
     const ReadScope scope(rules);
-    Messages known;  // they were told when the scene was read
+    Messages known;  // reported when the scene was read
     if (edited.empty() && !(*scene == *text->scene))
       edited = writeEdited(*text, *scene, text->file, known).files.front().bytes;
     return readScene(text->file, edited.empty() ? *text->bytes : edited, known, time);

@@ -58,7 +58,7 @@ class Document {
   bool canRedo() const { return current_ + 1 < editions_.size(); }
   void undo();
   void redo();
-  /// What undo() takes back, redo() makes again; "" if nothing.
+  /// Name of the edit that undo() takes back, and that redo() makes again; "" if nothing.
   std::string undoName() const { return canUndo() ? editions_[current_].what : ""; }
   std::string redoName() const { return canRedo() ? editions_[current_ + 1].what : ""; }
 
@@ -73,8 +73,8 @@ class Document {
   std::string fileFingerprint() const { return sceneEdited() ? "" : fingerprint_; }
   /// The file was written since it was last read, or since noticeDisk(). Asks the file system.
   bool changedOnDisk() const;
-  /// What lies on the disk is neither what was read last nor what was saved here: saving over it would lose
-  /// another program's work, whether that can be read or not. Asks the file system.
+  /// The file on the disk is neither the text that was read last nor the one saved here: saving over it would
+  /// lose another program's work, whether that can be read or not. Asks the file system.
   bool othersOnDisk() const;
   void noticeDisk();
   /// Reads the file again, as one step; choices made here stay. Throws Error; the document then stays, and
@@ -123,7 +123,7 @@ class Document {
 
   // --- and the writing of a scene ---
 
-  /// What a file was made of: a text that was read, and edits. It is `whole` if they took nothing out of the
+  /// The origin of a file: a text that was read, and edits. It is `whole` if they took nothing out of the
   /// text that a person wrote: comments, nesting, keys of an animation.
   struct Origin {
     std::shared_ptr<const SceneText> text;
@@ -132,14 +132,14 @@ class Document {
   struct Saving {
     std::string file;
     std::shared_ptr<const Scene> scene;
-    std::shared_ptr<const SceneText> text;  ///< of which the scene was made
+    std::shared_ptr<const SceneText> text;  ///< text of which the scene was made
     std::vector<Choice> choices;            ///< that the file is to make
-    std::optional<Origin> before;           ///< of the file, if it is the document's own
+    std::optional<Origin> before;           ///< state of the file, if it is the document's own
     Messages messages;
   };
   struct Saved {
     Saving what;
-    bool keepsAll = true;  ///< of the text
+    bool keepsAll = true;  ///< keeps all of the text
     std::string fingerprint;
     bool changesWithTime = false;
     std::filesystem::file_time_type written{};
@@ -171,13 +171,13 @@ class Document {
 
   std::string file_;
   std::string ownFile_;                        // the file, if it may be saved over
-  std::filesystem::file_time_type written_{};  // of what was read or saved last
+  std::filesystem::file_time_type written_{};  // time of the file that was read or saved last
   std::filesystem::file_time_type noticed_{};
   std::vector<Choice> commandLine_;
   std::vector<Edition> editions_;
   std::size_t current_ = 0;
   std::shared_ptr<const Scene> onDisk_;
-  Origin origin_;                                                    // of the file
+  Origin origin_;                                                    // origin of the file
   std::set<std::weak_ptr<const Scene>, std::owner_less<>> moments_;  // all that the file says, at other times
   std::vector<Choice> choicesOnDisk_;                                // that the file makes
   std::vector<Choice> choices_;  // that it makes if it is saved now: its own and those made here

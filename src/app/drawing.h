@@ -30,14 +30,14 @@ struct DrawnWords {
   Point2 at;  ///< where the first letter's upper left corner is
   std::string words;
   Color color;
-  double height = 14;  ///< of a line
+  double height = 14;  ///< height of a line
 };
 struct DrawnPicture {
   Point2 at;  ///< its upper left corner; a pixel is a pixel
   Picture picture;
 };
 
-/// What follows, up to the next, is seen only inside this rectangle.
+/// Everything drawn up to the next call is clipped to this rectangle.
 struct DrawnFrame {
   Point2 at;
   double width = 0, height = 0;

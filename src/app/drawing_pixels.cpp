@@ -62,7 +62,7 @@ class Canvas {
   }
 
   void draw(const DrawnWords& w) {
-    constexpr double kFontHeight = 12;  // of a line of the font
+    constexpr double kFontHeight = 12;  // font height of a line of the font
     std::string words = w.words;
     std::vector<char> buffer(words.size() * 400 + 64);
     const int quads =

@@ -12,6 +12,25 @@ void followEdit(Phong& now, const Phong&, std::string_view keyword) {
   if (keyword == "reflective") now.mirrorsSpecular = false;
 }
 
+void followEdit(TextureModel& now, const TextureModel& before, std::string_view keyword) {
+  if (keyword != "ramp") return;
+  const auto rampOf = [](const std::vector<TextureField>& fields) -> ColorRamp* {
+    for (const TextureField& field : fields)
+      if (ColorRamp* const* ramp = std::get_if<ColorRamp*>(&field.value); ramp && field.keyword == "ramp")
+        return *ramp;
+    return nullptr;
+  };
+  const std::vector<TextureField> fields = now.editFields();
+  ColorRamp* ramp = rampOf(fields);
+  if (!ramp || ramp->size() != 1 || !rampOf(before.fields())->empty()) return;
+  Color a, b;
+  for (const TextureField& field : fields) {
+    if (field.keyword == "a") a = valueOf<Color>(field);
+    if (field.keyword == "b") b = valueOf<Color>(field);
+  }
+  *ramp = {{0, a.r, a.g, a.b}, {1, b.r, b.g, b.b}};
+}
+
 void followMove(Camera& now, std::string_view keyword, const std::optional<Vec3>& lookAt) {
   if (keyword == "position" && lookAt) now.viewdir = normalize(*lookAt - now.position);
 }

@@ -1,4 +1,4 @@
-// What else follows when a person has set one field of a struct of the scene by hand.
+// Changes that follow when a person has set one field of a struct of the scene by hand.
 #pragma once
 
 #include <optional>
@@ -7,6 +7,7 @@
 #include "shading/background.h"
 #include "shading/cameras/camera.h"
 #include "shading/materials/phong.h"
+#include "shading/texture.h"
 
 namespace trace {
 
@@ -20,20 +21,11 @@ double mostWhole();
 /// A mirror that a person has set no longer follows the highlight.
 void followEdit(Phong& now, const Phong& before, std::string_view keyword);
 
-/// A camera that the file says looks at a point goes on doing so when it is moved.
+/// A camera that the file says looks at a point continues doing so when it is moved.
 void followMove(Camera& now, std::string_view keyword, const std::optional<Vec3>& lookAt);
 
 /// The first colours of a ramp are a and b, which it takes the place of.
-template <class Struct>
-requires requires(Struct s) {
-  s.ramp;
-  s.a;
-  s.b;
-}
-void followEdit(Struct& now, const Struct& before, std::string_view keyword) {
-  if (keyword != "ramp" || !before.ramp.empty() || now.ramp.size() != 1) return;
-  now.ramp = {{0, now.a.r, now.a.g, now.a.b}, {1, now.b.r, now.b.g, now.b.b}};
-}
+void followEdit(TextureModel& now, const TextureModel& before, std::string_view keyword);
 
 /// Keeps a background sound: ascending limits, one less than colours, or none. Bands that are added get
 /// limits of their own; who takes a limit out wants equal bands again. Elevations ascend, one for each colour

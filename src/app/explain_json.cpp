@@ -17,10 +17,7 @@ Json toJson(const Vec3& v) { return Json::list({v.x, v.y, v.z}); }
 Json toJson(const Color& c) { return Json::list({c.r, c.g, c.b}); }
 Json toJson(Real x) { return x; }
 Json toJson(int number) { return number; }
-template <class Enum>
-requires std::is_enum_v<Enum> Json toJson(Enum value) {
-  return names(Enum{})[static_cast<std::size_t>(value)];
-}
+Json toJson(const EnumValue& value) { return value.name(); }
 
 Json toJson(const Place& place) {
   if (place.file.empty()) return nullptr;
@@ -33,30 +30,13 @@ Json toJson(const ColorRamp& ramp) {
   return json;
 }
 
-template <class Struct>
-Json fieldsOf(const Struct& value) {
-  Json json = Json::object();
-  forEachField<Struct>([&](const auto& field) { json[field.keyword] = toJson(value.*field.member); });
-  return json;
-}
-
 /// The model and its values at the place; of a mixture of models what they have in common.
 Json material(const Bsdf& bsdf) {
-  const auto of = [](std::string_view model, Json fields) {
-    fields["model"] = model;
-    return fields;
-  };
-  return match(bsdf,
-               Overloaded{[&](const PhongBsdf& phong) { return of(Phong::kKeyword, fieldsOf(phong)); },
-                          [&](const MixedBsdf& mixed) {
-                            return of("mixed", {{"emissive", toJson(mixed.emissive)},
-                                                {"ambient", toJson(mixed.ambient)},
-                                                {"reflective", toJson(mixed.reflective)},
-                                                {"transmissive", toJson(mixed.transmissive)},
-                                                {"index", mixed.index},
-                                                {"shadow", mixed.shadow}});
-                          },
-                          [&](const auto& model) { return of(model.said.kKeyword, fieldsOf(model.said)); }});
+  Json json = Json::object();
+  for (const ModelField& field : bsdf.said())
+    visitValueOf(field, [&](const auto& value) { json[field.keyword] = toJson(value); });
+  json["model"] = bsdf.row().keyword;
+  return json;
 }
 
 class RayWriter {

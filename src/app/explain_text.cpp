@@ -81,7 +81,7 @@ class TreeText {
     if (node.kind == RayKind::shadow)
       shadow(explained);
     else if (node.kind == RayKind::light)
-      line("a place that paths from the camera are joined with");
+      line("a vertex that camera paths are connected with");
     else
       terms(explained);
     if (!explained.sentence.empty()) line(printable("-> " + explained.sentence));
@@ -164,9 +164,9 @@ class TreeText {
         words += " = " + product;
       if (term.chance && term.chance->density > 0) {
         const ChanceTerm& chance = *term.chance;
-        words += "\n" + margin_ + "    by chance, density " + digits(chance.density);
+        words += "\n" + margin_ + "    random, density " + digits(chance.density);
         if (chance.other > 0)
-          words += ", the other way " + digits(chance.other) + ": counts " + digits(chance.share);
+          words += ", the other strategy " + digits(chance.other) + ": counts " + digits(chance.share);
       }
       if (term.connection)
         words += "\n" + margin_ + "    s = " + std::to_string(term.connection->light) +
@@ -194,8 +194,8 @@ class TreeText {
   static std::string medium(const MediumTerm& m, const NamedBody& body) {
     const std::string by = body.object ? printable(body.name) : "fog";
     switch (m.what) {
-      case MediumTerm::What::covers: return "what media on the way take of it";
-      case MediumTerm::What::glows: return "given off on the way";
+      case MediumTerm::What::covers: return "attenuation by media on the way";
+      case MediumTerm::What::glows: return "emitted on the way";
       case MediumTerm::What::scatters: return "scattered by " + by + " at distance " + digits(m.t);
       case MediumTerm::What::follows: break;
     }
@@ -267,7 +267,7 @@ std::string sharesText(const RayTree& tree, const Scene& scene) {
     told += shares[i].share;
   }
   char rest[48];
-  std::snprintf(rest, sizeof rest, "%5.1f %%  in other ways\n", 100 * (1 - told));
+  std::snprintf(rest, sizeof rest, "%5.1f %%  by other strategies\n", 100 * (1 - told));
   return lines + (1 - told >= 0.0005 ? rest : "") + "\n";
 }
 
@@ -276,8 +276,7 @@ std::string waysText(const RayTree& tree, const Scene& scene) {
   std::string lines;
   int places = 0;
   for (const PathWay& way : pathWays(tree)) {
-    if (lines.empty())
-      lines = "The paths of the sample, s places from the light's end and t from the camera's:\n";
+    if (lines.empty()) lines = "The paths of the sample, s vertices from the light and t from the camera:\n";
     if (way.places() != places) lines += "  " + std::to_string(way.places()) + " places\n";
     places = way.places();
     const std::string counts = way.camera == 1
@@ -306,12 +305,11 @@ std::string chainText(const ChainWalk* chain) {
   return lines + "\n";
 }
 
-/// What paths from lights, those of all pixels, bring straight to the camera.
+/// The light image in this pixel: light-traced paths of all pixels that reach the camera.
 std::string lightImageText(const PixelFacts& facts) {
   if (!facts.light)
-    return "            the picture has more: what paths from lights, those of all pixels, bring straight to "
-           "the "
-           "camera, as\n            caustics on matt things; --light-image finds it\n";
+    return "            the picture has more: the light image, that is, light-traced paths of all pixels, "
+           "such as\n            caustics on diffuse objects; --light-image finds it\n";
   const LightImagePixel& image = facts.light->image;
   std::string lines = "light image " + exact(image.value) + " by " + std::to_string(image.landed) +
                       " paths that landed here, of " + std::to_string(image.paths) +
@@ -328,7 +326,7 @@ std::string lightImageText(const PixelFacts& facts) {
   return lines;
 }
 
-/// What an 8-bit file shows of the light, if that is not the light itself.
+/// The value of the light in an 8-bit file, if that is not the light itself.
 std::string shownText(const PixelFacts& facts) {
   const Development development = developmentOf(facts.settings);
   if (development == Development{}) return "";
@@ -391,14 +389,14 @@ std::string explainText(const PixelFacts& facts, bool color) {
           exact(facts.rendered) + "\n";
   if (facts.chain)
     text += "            chains make the picture, in no order of pixels: it tends to the same" +
-            std::string(throws ? ", and to what the light image adds" : "") + "\n";
+            std::string(throws ? ", and to the light image" : "") + "\n";
   if (throws) text += lightImageText(facts);
   if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
   const bool whole =
       !facts.chain && !throws && !facts.settings.denoise;  // nothing else has a part in the pixel
   if (!facts.chain && !throws) text += shownText(facts);
   const std::string pixel = whole    ? "the picture's pixel"
-                            : throws ? "what the pixel's own paths bring"
+                            : throws ? "the contribution of the pixel's own paths"
                                      : "the pixel as it was traced";
   text += facts.agrees() ? "The rays above sum to " + pixel + ", bit for bit.\n"
                          : "The rays above do NOT sum to " + pixel + ": please report this.\n";

@@ -12,12 +12,12 @@
 
 namespace trace {
 
-/// What the tree belongs to and whether it agrees with the picture.
+/// The pixel that the tree belongs to and whether it agrees with the picture.
 struct PixelFacts {
   const Scene& scene;
   const Explanation& explanation;
-  const std::vector<ExplainedRay>& rays;  ///< of its tree
-  int width = 0, height = 0;              ///< of the picture
+  const std::vector<ExplainedRay>& rays;  ///< rays of its tree
+  int width = 0, height = 0;              ///< width and height of the picture
   Color rendered;                         ///< the pixel, from a render
   Settings settings{};
   /// Chains make the picture that was asked for: the one that comes nearest to the pixel. Then the settings

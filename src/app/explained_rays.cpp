@@ -89,7 +89,7 @@ std::string raysAsObj(const RayTree& tree, const std::vector<ExplainedRay>& rays
     for (const ExplainedRay& ray : rays) {
       const RaySegment& segment = ray.segment;
       if (segment.looks != static_cast<RayLooks>(looks)) continue;
-      group += "# ray " + std::to_string(segment.node) + (segment.leaves ? ", goes on without end\n" : "\n");
+      group += "# ray " + std::to_string(segment.node) + (segment.leaves ? ", infinite\n" : "\n");
       group += vertex(segment.from) + vertex(segment.to);
       group += "l " + std::to_string(vertices + 1) + " " + std::to_string(vertices + 2) + "\n";
       vertices += 2;

@@ -28,7 +28,7 @@ struct NamedBody {
   std::string shape;                    ///< its keyword; "" for air
   bool isMesh = false;
   Place place;
-  std::vector<Share> materials;  ///< of the place; of a medium that was crossed, of the object as a whole
+  std::vector<Share> materials;  ///< at the hit; of a crossed medium, of the object
   std::string material;          ///< the name of the one that weighs most; "" for air
   std::string madeOf;            ///< materialNames() of all of them
 };
@@ -37,7 +37,7 @@ struct ExplainedTerm {
   std::string light;           ///< the name of the light that it is of; "" if it is of none
   std::string_view lightKind;  ///< its keyword
   Place lightPlace;
-  std::optional<NamedBody> medium;  ///< of a MediumTerm
+  std::optional<NamedBody> medium;  ///< medium of a MediumTerm
 };
 
 struct ExplainedRay {

@@ -1,4 +1,4 @@
-// What a file browser shows of a folder.
+// The entries of a folder in a file browser.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@ namespace trace {
 struct FolderEntry {
   std::string name;
   bool folder = false;
-  std::uint64_t bytes = 0;  ///< of files
+  std::uint64_t bytes = 0;  ///< size of a file in bytes
   bool operator==(const FolderEntry&) const = default;
 };
 

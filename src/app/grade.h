@@ -16,7 +16,7 @@ struct GradeTask {
   bool strict = false;
   DifferenceOptions difference;
   std::vector<Limit> limits;
-  double magnify = 8;         ///< of the heat pictures
+  double magnify = 8;         ///< magnify of the heat pictures
   bool keepsPictures = true;  ///< for a page
   std::string page{};         ///< the file to be written, which must be none of those read; "" for none
   double sceneLimit = 0;      ///< seconds that reading and rendering a scene may take; 0 for no limit
@@ -28,13 +28,13 @@ std::string_view verdictText(Verdict verdict);
 inline bool passes(Verdict verdict) { return verdict >= Verdict::within; }
 
 struct GradedPair {
-  std::string name;  ///< of the reference picture, seen from its folder
+  std::string name;  ///< name of the reference picture, seen from its folder
   std::string file;  ///< what was compared with it; "" if missing
   Verdict verdict = Verdict::missing;
   std::string problem;  ///< why it could not be compared; may be several lines
   std::string unit;     ///< "levels" or "values"
   int width = 0, height = 0;
-  std::vector<double> values;  ///< of metrics(), in their order; empty if it could not be compared
+  std::vector<double> values;  ///< values of metrics(), in their order; empty if it could not be compared
   /// Picture files: PNG for the first two, JPEG for the others; empty where there is none.
   std::string referencePicture, testPicture, heatPicture, flipPicture;
 };

@@ -77,11 +77,7 @@ std::string lowerCase(std::string text) {
 }
 
 FileKind pictureKind(const fs::path& file) {
-  const std::string suffix = lowerCase(file.extension().string());
-  for (const PictureFormat& format : pictureFormats())
-    for (std::string_view known : format.suffixes)
-      if (known == suffix) return FileKind::wanted;
-  return FileKind::unwanted;
+  return pictureFormatNamed(file.filename().string()) ? FileKind::wanted : FileKind::unwanted;
 }
 
 bool hasSceneSuffix(const fs::path& file) {

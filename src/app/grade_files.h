@@ -16,11 +16,11 @@ struct FolderFiles {
   std::map<std::filesystem::path, std::string> unreadableFolders;  ///< and why
 };
 
-/// What a file is to those who look for some kind of it.
+/// The result of a test of a file for some kind of it.
 enum class FileKind { wanted, perhaps, unwanted };
 
-/// What is in and below the folder. `kindOf` reads no pipe and no device. Links are followed, but not into a
-/// folder that they stand in. Throws Error(Fault::io) if the folder itself cannot be read.
+/// The files in and below the folder. `kindOf` reads no pipe and no device. Links are followed, but not into
+/// a folder that they stand in. Throws Error(Fault::io) if the folder itself cannot be read.
 FolderFiles filesBelow(const std::string& folder, FileKind (*kindOf)(const std::filesystem::path&));
 
 /// A to Z as a to z.

@@ -254,7 +254,7 @@ std::string gradePage(const GradeTask& task, const Grades& grades) {
       ".</p>\n<p class=\"faint\">Worst first. Thumbnails: reference, result, "
       "difference times " +
       toText(task.magnify) +
-      ", what an eye sees (FLIP). The name of a pair opens it. Made by Trace " TRACE_VERSION
+      ", the perceived difference (FLIP). The name of a pair opens it. Made by Trace " TRACE_VERSION
       ".</p>\n"
       "<p><label><input type=\"checkbox\" id=\"failed\"> only those not within the limits</label></p>\n"
       "<div class=\"wide\"><table><thead><tr><th data-key=\"verdict\"><button>verdict</button></th>"

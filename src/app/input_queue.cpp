@@ -7,7 +7,7 @@ namespace {
 
 using Kind = InputEvent::Kind;
 
-/// What a frame has taken so far.
+/// The input that a frame has taken so far.
 class OneFrame {
  public:
   /// False if the event has to wait for the next frame.

@@ -1,4 +1,4 @@
-// A value to be written as JSON. Only json.cpp sees the library, which is dear to compile.
+// A value to be written as JSON. Only json.cpp sees the library, which is slow to compile.
 #pragma once
 
 #include <concepts>

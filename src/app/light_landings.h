@@ -1,4 +1,4 @@
-// What the light image of `bdpt` brings a pixel, and the paths by which the brightest of it came.
+// The share of the light image of `bdpt` in a pixel, and the paths by which the brightest of it came.
 #pragma once
 
 #include <string>
@@ -15,8 +15,8 @@ struct LightLandings {
   std::vector<std::string> routes;
 };
 
-/// Of the pixel (x, y) of the session's picture, or of that region of it. After Session::build(). Takes about
-/// half as long as a render.
+/// Landings on the pixel (x, y) of the session's picture, or of that region of it. After Session::build().
+/// Takes about half as long as a render.
 LightLandings lightLandings(const Session& session, const Region& region, int x, int y, Job& job);
 
 }  // namespace trace

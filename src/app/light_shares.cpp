@@ -8,7 +8,7 @@
 namespace trace {
 namespace {
 
-/// What shines, reflects or scatters there.
+/// Name of the object that emits, reflects or scatters there.
 std::string placeOf(const RayNode& node, const Scene& scene) {
   return node.hit ? objectName(scene, node.hit->object) : "air";
 }
@@ -29,7 +29,7 @@ std::string sourceOf(const Term& term, const RayNode& node, const RayTree& tree,
       return (asked.hit ? objectName(scene, asked.hit->object) : "the sky") + " on " + here;
     }
     case TermKind::joined: return "a path from a light that was joined with one on " + here;
-    case TermKind::background: return node.outside ? "what is around the scene" : "the background";
+    case TermKind::background: return node.outside ? "the environment" : "the background";
     case TermKind::fog: return "fog";
     case TermKind::medium: return "a medium";
     case TermKind::hole: return "holes of " + here;

@@ -12,7 +12,7 @@ namespace trace {
 struct LightShare {
   std::string from;  ///< "sun on floor, by reflection in ball"
   Color brings;      ///< to the pixel
-  double share = 0;  ///< of the luminance of all, what is taken away counted, too
+  double share = 0;  ///< share of the luminance of all, including what was removed
 };
 
 /// Those whose share is not 0. The rays must be weighed.

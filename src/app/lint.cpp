@@ -83,18 +83,19 @@ void degrees(const LintScene& s, Findings& findings) {
 std::span<const LintCheck> lintChecks() {
   static constexpr std::array kTable{
       LintCheck{"light-inside", "a point light inside an opaque object", lightInside},
-      LintCheck{"light-behind-glass", "a point light most of which comes through refracting glass",
+      LintCheck{"light-behind-glass", "a point light that mostly shines through refracting glass",
                 lightBehindGlass},
       LintCheck{"light-too-weak", "a light that is too weak to see", lightTooWeak},
-      LintCheck{"light-blocked", "a light that one object shuts out, such as the sun a sky", lightBlocked},
-      LintCheck{"light-cut", "a light whose flaps or photometric file leave nothing of it", lightCut},
-      LintCheck{"light-link", "a light or an object that names what is not there", lightLink},
-      LintCheck{"portal", "a portal that the sky does not come through, or that stands in the open",
-                portalUseless},
+      LintCheck{"light-blocked", "a light that one object blocks, such as the sun behind a sky",
+                lightBlocked},
+      LintCheck{"light-cut", "a light that its flaps or photometric file shut off", lightCut},
+      LintCheck{"light-link", "a light or an object that names unknown objects or lights", lightLink},
+      LintCheck{"portal", "a portal without light, or in the open", portalUseless},
       LintCheck{"camera-inside", "the camera inside a solid", cameraInside},
       LintCheck{"camera-looks-away", "a camera that faces away from everything", cameraLooksAway},
       LintCheck{"unlit", "an object that is seen and that no light reaches", unlit},
-      LintCheck{"light-reaches-nothing", "a light that gives nothing to what is seen", lightReachesNothing},
+      LintCheck{"light-reaches-nothing", "a light that contributes nothing to the picture",
+                lightReachesNothing},
       LintCheck{"caustics-missing", "mirrors and glass whose caustics the integrator does not find",
                 causticsMissing},
       LintCheck{"inside-out", "a closed mesh whose faces look inward", insideOut},
@@ -103,19 +104,20 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"zero-area", "triangles of a mesh without area", zeroArea},
       LintCheck{"coplanar", "faces of two objects in one plane, one over the other", coplanarFaces},
       LintCheck{"unused-material", "a named material that nothing uses", unusedMaterial},
-      LintCheck{"inherited-glass", "a material that is glass only for what it inherits", inheritedGlass},
+      LintCheck{"inherited-glass", "a material that is glass only by inheritance", inheritedGlass},
       LintCheck{"index-below-1", "glass of an index of refraction below 1", indexBelowOne},
-      LintCheck{"glass-in-glass", "bodies of glass that overlap and are each taken to be in air",
+      LintCheck{"glass-in-glass", "glass objects that overlap and are each assumed to be in air",
                 glassInGlass},
-      LintCheck{"medium-unseen", "a medium in an opaque body, or in one that encloses nothing", mediumUnseen},
-      LintCheck{"medium-empty", "a medium that is nowhere dense, or does nothing with light", mediumEmpty},
-      LintCheck{"subsurface-open", "light that is to spread inside an open sheet", subsurfaceOpen},
-      LintCheck{"depth-too-low", "glass that shows too little for too small a depth", depthTooLow},
+      LintCheck{"medium-unseen", "a medium in an opaque object, or in one that encloses nothing",
+                mediumUnseen},
+      LintCheck{"medium-empty", "a medium without density, or without scattering, absorption and emission",
+                mediumEmpty},
+      LintCheck{"subsurface-open", "subsurface scattering in an open sheet", subsurfaceOpen},
+      LintCheck{"depth-too-low", "glass that looks wrong because the depth is too small", depthTooLow},
       LintCheck{"brick-joint", "a box whose face lies in a joint of its bricks", brickJoint},
       LintCheck{"no-material", "objects without a material", noMaterial},
       LintCheck{"black-reflection", "a mirror or glass that shows black for a background", blackReflection},
-      LintCheck{"black-picture", "a picture of which nearly all is black, and no other check says why",
-                blackPicture},
+      LintCheck{"black-picture", "a picture that is nearly all black, without another finding", blackPicture},
       LintCheck{"degrees", "degrees where a rotation takes radians", degrees},
   };
   return kTable;
@@ -137,7 +139,7 @@ std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, cons
     check.run(s, findings);
     work.reached(&check - lintChecks().data() + 1);
   }
-  // Parts of one object are told of once.
+  // Parts of one object are reported once.
   std::vector<LintFinding> once;
   for (LintFinding& finding : findings)
     if (std::none_of(once.begin(), once.end(), [&](const LintFinding& other) {

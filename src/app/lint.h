@@ -1,4 +1,4 @@
-// What is likely a mistake in a scene, though it can be rendered: the warnings a teacher would give.
+// Likely mistakes in a scene that can be rendered: the warnings a teacher would give.
 //
 // Geometry is asked by tracing our own rays, in directions and pixels that are always the same.
 #pragma once
@@ -29,7 +29,7 @@ struct LintCheck {
 };
 std::span<const LintCheck> lintChecks();
 
-/// What reading and compiling the scene warned of, and what a render would, each as the check `reading` if no
+/// The warnings of reading and compiling the scene, and of a render, each as the check `reading` if no
 /// other check is about it, then the findings of the checks in their order. `world` was compiled from the
 /// scene with the settings.
 std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, const World& world,

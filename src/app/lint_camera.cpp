@@ -53,8 +53,8 @@ void cameraInside(const LintScene& s, Findings& findings) {
     if (!glass && (seen.lit > 0 || others(object) > 0)) continue;  // a room
     warn(findings, "camera-inside", placeOf(s, object),
          "the camera is inside " + quoted(s, object) +
-             (glass ? ": all is seen through its surface, from within"
-                    : ": only its inside is seen, which no light reaches"),
+             (glass ? ": it sees everything through the surface"
+                    : ": it sees only the inside, which no light reaches"),
          "move the camera's position out of it");
   }
 }
@@ -65,9 +65,9 @@ void cameraLooksAway(const LintScene& s, Findings& findings) {
   const CameraFrame& camera = s.world.camera();
   if (s.survey.cutOff > 0) {
     warn(findings, "camera-looks-away", place,
-         "nothing is seen: the objects before the camera are not between its near and far, " +
+         "nothing is visible: the objects in front of the camera are not between its near and far, " +
              toText(camera.near) + " and " + toText(camera.far),
-         "`near` and `far` of the camera bound the distance of what it sees; without them it sees all");
+         "`near` and `far` of the camera limit its range; without them it sees all");
     return;
   }
   Box3 all;
@@ -82,7 +82,7 @@ void cameraLooksAway(const LintScene& s, Findings& findings) {
   warn(findings, "camera-looks-away", place,
        "the camera faces away from everything: nothing is in the picture",
        known ? "look_at = (" + toText(roundedTo(middle.x)) + ", " + toText(roundedTo(middle.y)) + ", " +
-                   toText(roundedTo(middle.z)) + "); in place of viewdir turns it to the middle of the scene"
+                   toText(roundedTo(middle.z)) + "); in place of viewdir points it at the middle of the scene"
              : "turn it, or move it back");
 }
 
@@ -93,12 +93,11 @@ void blackReflection(const LintScene& s, Findings& findings) {
     if (seen.leftScene < kFew || 2 * seen.leftScene < seen.sent) continue;
     const bool mirrors = 2 * seen.mirroredAway >= seen.leftScene;
     warn(findings, "black-reflection", placeOf(s, object),
-         quoted(s, object) + (mirrors ? " mirrors black" : " lets black through") +
-             " where it should show the background: only rays of the camera see that",
-         "every ray sees a `gradient` in `background`, a sky by day and what --environment names; or put "
-         "objects "
-         "where it " +
-             std::string(mirrors ? "mirrors" : "is looked through to") + " nothing");
+         quoted(s, object) + (mirrors ? " reflects black" : " shows black") +
+             " where it should show the background: only camera rays see that",
+         "every ray sees a `gradient` in `background`, a daylight sky and the picture of --environment; or "
+         "put objects where it " +
+             std::string(mirrors ? "mirrors" : "shows") + " nothing");
   }
 }
 

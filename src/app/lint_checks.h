@@ -1,4 +1,4 @@
-// What the checks of lint are made of, for the files that hold them. The table is in lint.cpp.
+// The parts that the checks of lint share. The table is in lint.cpp.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace trace {
 
-/// What the checks look at.
+/// The data that the checks look at.
 struct LintScene {
   const Scene& scene;
   const Settings& settings;

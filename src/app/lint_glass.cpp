@@ -1,4 +1,4 @@
-// The check of bodies of glass inside and across one another.
+// The check of glass objects inside and across one another.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -68,7 +68,7 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> nested(const LintScene& s
 }  // namespace
 
 void glassInGlass(const LintScene& s, Findings& findings) {
-  constexpr int kSide = 8;  // of the grid of rays through each body
+  constexpr int kSide = 8;  // side of the grid of rays through each body
   if (s.world.nestedGlass()) return;
   const std::vector<Body> bodies = bodiesOf(s);
   for (const Body& body : bodies) {
@@ -86,12 +86,11 @@ void glassInGlass(const LintScene& s, Findings& findings) {
       const auto pair = nested(s, {through - direction * (2 * far), direction}, 4 * far, bodies);
       if (!pair) continue;
       const auto [inner, outer] = *pair;
-      return warn(
-          findings, "glass-in-glass", placeOf(s, inner),
-          quoted(s, inner) + " is inside " + quoted(s, outer) +
-              " or across it, and each body of glass is taken to be in air: light bends wrongly where "
-              "they meet",
-          "give the materials a `priority`, or use --nested-glass on");
+      return warn(findings, "glass-in-glass", placeOf(s, inner),
+                  quoted(s, inner) + " is inside " + quoted(s, outer) +
+                      " or across it, and each glass object is assumed to be in air: light is refracted "
+                      "wrongly where they meet",
+                  "give the materials a `priority`, or use --nested-glass on");
     }
   }
 }

@@ -2,9 +2,9 @@
 //
 // Places are asked at which paths from the camera arrive, as the integrator would follow them, and those that
 // a light shines on first, where the camera sees them or on objects that no path has met: a light may be
-// there for what is not in the picture. Each asks the lights of which nothing has come so far, as an
+// there for what is not in the picture. Each samples the lights of which nothing has come so far, as an
 // integrator asks them: by links, cones, falloff, the material and the tracer's own shadow rays. So a light
-// is told of only if it gives exactly nothing at many places.
+// is reported only if it gives exactly nothing at many places.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -25,7 +25,7 @@ namespace {
 constexpr Size kSeen{128, 96};  ///< paths across and down the picture
 constexpr int kFewPlaces = 200;
 constexpr int kMostPlaces = 400000;  ///< asked of all lights together
-constexpr int kPlacesOfLight = 4;    ///< of one with a size
+constexpr int kPlacesOfLight = 4;    ///< places of light of one with a size
 constexpr int kRaysOfLight = 400;
 constexpr int kDeepest = 8;
 
@@ -33,8 +33,8 @@ constexpr int kDeepest = 8;
 struct SilentLight {
   std::uint32_t number;  ///< in World::lights()
   int asked = 0;
-  int elsewhere = 0;  ///< of these: it shines elsewhere
-  int behind = 0;     ///< of these: it is behind the surface
+  int elsewhere = 0;  ///< points in another direction than the light shines
+  int behind = 0;     ///< points where the light is behind the surface
   std::map<std::uint32_t, int> blockedBy{};
 };
 
@@ -72,7 +72,7 @@ class LightSearch {
   }
 
   std::vector<SilentLight> find() {
-    Work work("asking the lights", kSeen.height);
+    Work work("sampling the lights", kSeen.height);
     for (int y = 0; y < kSeen.height && isToAsk(); ++y) {
       work.reached(y);
       for (int x = 0; x < kSeen.width && isToAsk(); ++x)
@@ -119,7 +119,7 @@ class LightSearch {
     }
   }
 
-  /// What the light shines on along one of its rays, and where that light goes on to.
+  /// Follows one ray of the light: the points that it lights, and where the path continues.
   void fromLight(std::uint32_t number, int i) {
     Ray ray = rayOf(world_.lights()[number], i);
     Interfaces inside = pixels_.tracer().interfacesAt(ray.origin);
@@ -162,7 +162,7 @@ class LightSearch {
       follow(eye, first, around, sampler);
       return false;
     }
-    constexpr Real kSame = 1e-6;  // of the way
+    constexpr Real kSame = 1e-6;  // tolerance relative to the distance
     const bool same = first && length(first->surface.point - point) <= kSame * length(point - eye.origin);
     if (same) std::erase_if(silent_, [&](const SilentLight& light) { return light.number == number; });
     return same;
@@ -212,7 +212,7 @@ class LightSearch {
     });
   }
 
-  /// Light goes on from there, whatever is scattered.
+  /// Light continues from there, whatever is scattered.
   bool goesOn(const Interaction& at) const {
     return (bounces_ || photons_) && (at.transmits || !isBlack(at.mirror(false)));
   }
@@ -240,7 +240,7 @@ class LightSearch {
   std::unique_ptr<const Integrator> integrator_;
   PixelTracer pixels_;
   SampleRules rules_;
-  bool photons_;  ///< mirrors and glass throw light on other things
+  bool photons_;  ///< mirrors and glass have caustics
   bool bounces_;  ///< everything does
   int asked_ = 0;
   std::vector<bool> seen_;  ///< objects that a path from the camera has met
@@ -249,8 +249,8 @@ class LightSearch {
 
 }  // namespace
 
-/// After the checks that know a reason, and not where something is told to be unlit. In fog and smoke the air
-/// itself is lit.
+/// After the checks that know a reason, and not where something is reported as unlit. In fog and smoke the
+/// air itself is lit.
 void lightReachesNothing(const LintScene& s, Findings& findings) {
   if (s.settings.fog > 0 || !s.world.media().empty() || s.survey.met == 0) return;
   for (const SilentLight& light : LightSearch(sparseOf(s.settings), s.world).find()) {
@@ -269,14 +269,14 @@ void lightReachesNothing(const LintScene& s, Findings& findings) {
     const int blocked = most == light.blockedBy.end() ? 0 : most->second;
     const bool isBlocked = blocked > 0 && blocked >= light.elsewhere && blocked >= light.behind;
     warn(findings, "light-reaches-nothing", source.place,
-         "this light gives nothing to what is seen: " + std::to_string(light.asked) +
-             " places were asked, and of most " +
+         "this light contributes nothing to the picture: " + std::to_string(light.asked) +
+             " points were tested, and for most " +
              (isBlocked                         ? quoted(s, most->first) + " is in the way"
               : light.elsewhere >= light.behind ? "it shines elsewhere"
                                                 : "it is behind the surface"),
          std::string(isBlocked ? "move the light, or what is in its way"
-                               : "move the light to the side that is seen, or turn it") +
-             "; or take it out: it only takes time");
+                               : "move the light to the visible side, or turn it") +
+             "; or remove it to save time");
   }
 }
 

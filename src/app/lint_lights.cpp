@@ -49,8 +49,7 @@ void lightInside(const LintScene& s, Findings& findings) {
     for (const std::uint32_t object : opaqueAround(s, source.light))
       warn(findings, "light-inside", source.place,
            "the light is inside " + quoted(s, object) + ", which is opaque: it lights nothing outside",
-           "move the light out of it; a lamp that shines needs `emissive` for its looks and a light beside "
-           "it");
+           "move the light out of it; a lamp needs an `emissive` surface and a light next to it");
 }
 
 /// Looks at lights that stand somewhere: parallel light keeps its direction behind a pane, and has no focus
@@ -65,11 +64,10 @@ void lightBehindGlass(const LintScene& s, Findings& findings) {
     if (lamp.throughGlass < kFew || 2 * lamp.throughGlass < lamp.reachedOthers) continue;
     warn(findings, "light-behind-glass", s.scene.lights[i].place,
          "most of this light comes through " + quoted(s, lamp.glass) +
-             ", which refracts: shadow rays run straight on, so light is neither bent nor gathered there",
+             ", which refracts: shadow rays continue straight, so there is no refraction and no caustic",
          std::string(whitted ? "--caustics 200000" : "--integrator photon") +
-             " sends photons from the light, which are bent and gathered; or move the light out of the "
-             "glass, or "
-             "give what is around it index = 1");
+             " traces photons from the light, which refract; or move the light out of the glass, or give the "
+             "glass index = 1");
   }
 }
 
@@ -88,11 +86,10 @@ void lightTooWeak(const LintScene& s, Findings& findings) {
     warn(findings, "light-too-weak", source.place,
          "the light is too weak to see: where it is strongest, " + toText(roundedTo(lamp.strongest)) +
              " arrives, and a level of the picture is " + toText(roundedTo(1 / 255.0)) +
-             (fades ? "; it fades on the way" : ""),
-         fades
-             ? "constant_attenuation_coeff = 1; linear_attenuation_coeff = 0; quadratic_attenuation_coeff = "
-               "0; keep light from fading with the distance; or give it a stronger color"
-             : "give it a stronger color: 1 is full light");
+             (fades ? "; it falls off with the distance" : ""),
+         fades ? "constant_attenuation_coeff = 1; linear_attenuation_coeff = 0; quadratic_attenuation_coeff "
+                 "= 0; switch the falloff off; or give it a stronger color"
+               : "give it a stronger color: 1 is full light");
   }
 }
 
@@ -117,9 +114,9 @@ void lightBlocked(const LintScene& s, Findings& findings) {
     if (!isShell(s.world, sky, s.world.camera().eye)) continue;
     const bool around = isAroundCamera(s, sky);
     warn(findings, "light-blocked", s.scene.lights[i].place,
-         "this light reaches nothing that is seen: " + quoted(s, sky) +
-             (around ? " is around everything and in its way" : " is in its way everywhere"),
-         around ? "in place of an object as sky, `background` casts no shadow; or put the light inside"
+         "this light reaches nothing visible: " + quoted(s, sky) +
+             (around ? " encloses the scene and blocks it" : " blocks it everywhere"),
+         around ? "use `background` in place of the object, since it casts no shadow; or put the light inside"
                 : "put the light on the other side of it, or turn it round");
   }
 }
@@ -132,7 +129,7 @@ void lightCut(const LintScene& s, Findings& findings) {
       if (measured->file.data && measured->file.data->brightest() == 0)
         warn(findings, "light-cut", source.place,
              "the photometric file of this light has no light: all its candelas are 0",
-             "take the file of a lamp that is lit, or a point_light");
+             "use the file of a lamp that is on, or a point_light");
       continue;
     }
     const auto* studio = std::get_if<WarnLight>(&source.light);
@@ -152,9 +149,8 @@ void lightCut(const LintScene& s, Findings& findings) {
     };
     if (std::none_of(s.scene.objects.begin(), s.scene.objects.end(), isLit))
       warn(findings, "light-cut", source.place,
-           "the flaps of this light cut off everything: no object is in what they leave",
-           "flaps are planes in the space of the scene, not of the light: x_max = 1 leaves what lies at x < "
-           "1");
+           "the flaps of this light cut off everything: no object lies between them",
+           "flaps are planes in the space of the scene, not of the light: x_max = 1 lights only x < 1");
   }
 }
 

@@ -12,6 +12,7 @@
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/cube.h"
+#include "shading/textures/brick.h"
 
 namespace trace::lint_checks {
 namespace {
@@ -44,7 +45,7 @@ bool isBare(const LintScene& s, const Shape& shape, std::uint32_t material) {
 /// The first texture of bricks on the material, however deep.
 const TextureNode* bricksIn(const std::vector<FieldTexture>& textures) {
   for (const FieldTexture& t : textures) {
-    if (std::holds_alternative<Brick>(t.texture->model)) return &*t.texture;
+    if (t.texture->model.is<Brick>()) return &*t.texture;
     if (const TextureNode* inner = bricksIn(t.texture->inputs)) return inner;
   }
   return nullptr;
@@ -58,14 +59,14 @@ bool inJoint(Real plane, Real moved, Real length, Real mortar) {
 
 }  // namespace
 
-/// Of a box whose bricks are not turned. Joints across x are moved from course to course.
+/// Checks a box whose bricks are not rotated. Joints across x are moved from course to course.
 void brickJoint(const LintScene& s, Findings& findings) {
   for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
     const Object& o = s.scene.objects[object];
     if (!o.shape.is<Cube>()) continue;
     const TextureNode* node = bricksIn(s.scene.materials[o.material].textures);
     if (!node || node->placement.rotate != Vec3{}) continue;
-    const Brick& brick = std::get<Brick>(node->model);
+    const Brick& brick = *node->model.as<Brick>();
     if (brick.space != TextureSpace::point) continue;
     for (int axis = 2; axis >= 1; --axis) {
       const Real scale = node->placement.scale[axis], moved = node->placement.translate[axis];
@@ -85,9 +86,9 @@ void brickJoint(const LintScene& s, Findings& findings) {
 void unusedMaterial(const LintScene& s, Findings& findings) {
   const bool inRay = s.scene.format == "ray";
   const auto unused = [&](const std::string& name, const Place& place) {
-    warn(findings, "unused-material", place, "the material \"" + name + "\" is given to nothing",
-         inRay ? "name it in an object, as in sphere { material = \"" + name + "\"; }, or take it out"
-               : "give it to an object, or take it out");
+    warn(findings, "unused-material", place, "the material \"" + name + "\" is not used",
+         inRay ? "name it in an object, as in sphere { material = \"" + name + "\"; }, or remove it"
+               : "give it to an object, or remove it");
   };
   for (const UnusedMaterial& material : s.scene.unusedMaterials) unused(material.name, material.place);
   std::set<std::uint32_t> used;
@@ -113,7 +114,7 @@ void indexBelowOne(const LintScene& s, Findings& findings) {
     if (!told.insert(s.scene.objects[object].material).second) continue;
     warn(findings, "index-below-1", placeOf(s, object),
          "the index of refraction of " + quoted(s, object) + " is " + toText(material.index) +
-             ": no matter has one below 1",
+             ": real materials have at least 1",
          "glass has index = 1.5, water 1.33; for a bubble in glass nest a surface of index 1");
   }
 }
@@ -122,7 +123,7 @@ void depthTooLow(const LintScene& s, Findings& findings) {
   constexpr double kOfPicture = 0.04, kOfObject = 0.2, kFewest = 5;
   const double samples = s.survey.samples;
   if (s.survey.cutShort.empty()) return;
-  // One glass on a large table is to be told of, too.
+  // One glass on a large table is to be reported, too.
   const auto cut = static_cast<double>(s.survey.cutShort.size());
   const double few = cut >= kOfPicture * samples
                          ? kOfPicture * samples
@@ -134,7 +135,7 @@ void depthTooLow(const LintScene& s, Findings& findings) {
   if (darker.empty() || enough == darker.begin()) return;
   const std::string depth = std::to_string(s.settings.depth + static_cast<int>(enough - darker.begin()));
   warn(findings, "depth-too-low", placeOf(s, s.survey.cutShortIn),
-       "rays end inside glass, at first in " + quoted(s, s.survey.cutShortIn) + ", for the depth is only " +
+       "rays end inside glass, first in " + quoted(s, s.survey.cutShortIn) + ", because the depth is only " +
            std::to_string(s.settings.depth) + ": " + percent(darker.front() / samples) +
            " of the picture would look different with more",
        "--depth " + depth + ", or settings { depth = " + depth + "; } in the scene");
@@ -150,7 +151,7 @@ void noMaterial(const LintScene& s, Findings& findings) {
        quoted(s, bare.front()) +
            (others == 0 ? " has no material"
                         : " and " + counted(others, "more object") + " have no material") +
-           ", or one that says nothing: no light makes it other than black",
+           ", or an empty one: it is black in any light",
        "give it one, as in material = { diffuse = (0.8, 0.8, 0.8); ambient = (0.8, 0.8, 0.8); }");
 }
 

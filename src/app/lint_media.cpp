@@ -2,6 +2,7 @@
 
 #include "app/lint_checks.h"
 #include "base/budget.h"
+#include "shading/materials/subsurface.h"
 #include "shading/medium.h"
 
 namespace trace::lint_checks {
@@ -43,10 +44,10 @@ void mediumUnseen(const LintScene& s, Findings& findings) {
     if (!(material.mediumDensity > 0) || isFilled(s, i)) continue;
     const bool hidden = s.world.opaque(i);
     warn(findings, "medium-unseen", placeOf(s, i),
-         quoted(s, i) + (hidden ? " is opaque: what fills it is not seen"
-                                : " encloses nothing that has an end, so no medium fills it"),
-         hidden ? "opacity = 0 takes its surface away; transmissive makes glass of it"
-                : "give the medium to a closed body, as a box or a sphere");
+         quoted(s, i) + (hidden ? " is opaque: its medium is not visible"
+                                : " does not enclose a finite space, so it has no medium"),
+         hidden ? "opacity = 0 removes its surface; transmissive makes it glass"
+                : "give the medium to a closed object, such as a box or a sphere");
   }
 }
 
@@ -55,29 +56,29 @@ void mediumEmpty(const LintScene& s, Findings& findings) {
     if (!isEmpty(s, body)) continue;
     warn(findings, "medium-empty", placeOf(s, body.object),
          "the medium in " + quoted(s, body.object) +
-             " neither scatters nor swallows nor gives off light anywhere: it is not seen",
-         "its texture may lie elsewhere than the body, in whose own space it is asked; or give it "
+             " has no scattering, absorption or emission anywhere: it is not visible",
+         "its texture may lie outside of the object, in whose own space it is evaluated; or give it "
          "medium_scatters, medium_absorbs or medium_glows");
   }
   for (std::uint32_t i = 0; i < s.scene.objects.size(); ++i) {
     const Material& material = s.scene.materials[s.scene.objects[i].material];
     if (material.mediumDensity > 0 || !meansMedium(material)) continue;
     warn(findings, "medium-empty", placeOf(s, i),
-         quoted(s, i) + " says what a medium in it does, but its medium_density is 0: there is none",
-         "medium_density = 1 counts the other fields as they are");
+         quoted(s, i) + " has fields of a medium, but its medium_density is 0: there is none",
+         "medium_density = 1 uses the other fields unchanged");
   }
 }
 
 void subsurfaceOpen(const LintScene& s, Findings& findings) {
   for (std::uint32_t i = 0; i < s.scene.objects.size(); ++i) {
     const Material& material = s.scene.materials[s.scene.objects[i].material];
-    const auto* model = std::get_if<Subsurface>(&material.model);
+    const auto* model = material.model.as<Subsurface>();
     if (!model || s.world.solid(i)) continue;
     warn(findings, "subsurface-open", placeOf(s, i),
-         quoted(s, i) + " encloses nothing, and light is to spread inside it: " +
-             (model->spreading == Spreading::walk ? "a walk finds no way out, and it stays dark"
+         quoted(s, i) + " encloses nothing, but has subsurface scattering: " +
+             (model->spreading == Spreading::walk ? "a random walk finds no way out, and it stays dark"
                                                   : "it is lit as if it were thick"),
-         "make it a closed body; a leaf or a sheet of paper is better lit with Lambert's model");
+         "make it a closed object; use Lambert's model for a leaf or a sheet of paper");
   }
 }
 

@@ -31,7 +31,7 @@ void insideOut(const LintScene& s, Findings& findings) {
     if (room || shareInsideOut(s.world, object, mesh) < 0.9) return;
     warn(findings, "inside-out", placeOf(s, object),
          "the faces of " + quoted(s, object) +
-             " look inward: it is lit from within, and glass bends light the wrong way",
+             " look inward: it is lit from inside, and glass refracts the wrong way",
          "list the corners of each face counter-clockwise as seen from outside");
   });
 }
@@ -83,7 +83,7 @@ void normalsAgainstFaces(const LintScene& s, Findings& findings) {
     if (share < 0.05) return;
     warn(findings, "normals-against-faces", placeOf(s, object),
          "the normals of " + quoted(s, object) + " point against its faces in " + percent(share) +
-             " of the triangles: what is shaded and what is in shadow do not agree there",
+             " of the triangles: shading and shadows disagree there",
          "reverse either the normals or the order of the faces' corners; gennormals makes normals that fit");
   });
 }
@@ -92,7 +92,7 @@ void zeroArea(const LintScene& s, Findings& findings) {
   for (const Message& message : s.warnings)
     if (isOfArea(message))
       warn(findings, "zero-area", message.place, message.what,
-           "their corners lie on one line, or are one point: take them out of the file, or mend their "
+           "their corners lie on one line, or are one point: remove them from the file, or correct their "
            "corners");
 }
 
@@ -101,7 +101,7 @@ void coplanarFaces(const LintScene& s, Findings& findings) {
   // Flat faces wherever they are; others, such as those of prisms, where the camera sees them.
   Statistics statistics;
   const auto isSeen = [&](const Vec3& place) {  // whichever way the camera looks
-    constexpr Real kThere = 1 - 1e-6;           // of the way
+    constexpr Real kThere = 1 - 1e-6;           // tolerance relative to the distance
     const Vec3& eye = s.world.camera().eye;
     const auto found = s.world.closest({eye, place - eye}, Faces::both, statistics);
     return found && found->t > kThere;
@@ -117,7 +117,7 @@ void coplanarFaces(const LintScene& s, Findings& findings) {
                                     quoted(s, pair.first) + " and covers it"
                               : "the surfaces of " + quoted(s, pair.second) + " and " +
                                     quoted(s, pair.first) + " are at the same place") +
-             ": which of them is seen is left to rounding",
+             ": rounding decides which of them is visible",
          "move one of them a little, or leave out the part that is covered");
   }
 }

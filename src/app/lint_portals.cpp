@@ -14,15 +14,15 @@ namespace {
 
 constexpr int kLines = 256;           ///< through a portal
 constexpr int kLooks = 8;             ///< at the sky, from each place that they end at
-constexpr double kMuchPastIt = 0.45;  ///< of these looks; under an open sky a wall sees a half
+constexpr double kMuchPastIt = 0.45;  ///< fraction of these rays; under an open sky a wall sees a half
 
 struct PortalLook {
   int toSky = 0;  ///< lines of which an end leaves the scene
   int looks = 0,
-      past = 0;  ///< of the places at their other ends: all, and those that see the sky past portals
+      past = 0;  ///< numbers of points at their other ends: all, and those that see the sky past portals
 };
 
-/// The first opaque thing on the ray; what passes light or has holes is none.
+/// The first opaque thing on the ray; what transmits light or has holes is none.
 std::optional<Found> firstOpaque(const World& world, const Ray& ray) {
   for (const Found& found : allCrossings(world, ray, kInfinity))
     if (world.opaque(found.object)) return found;
@@ -73,8 +73,8 @@ void portalUseless(const LintScene& s, Findings& findings) {
     const auto* portal = std::get_if<Portal>(&source.light);
     if (!portal) continue;
     if (!s.world.outside().isSeenBy(RayKind::bounce)) {
-      warn(findings, "portal", source.place, "the portal changes nothing: nothing around the scene shines",
-           "give the scene a background or an environment; a lamp outside needs no portal");
+      warn(findings, "portal", source.place, "the portal changes nothing: the environment is black",
+           "give the scene a background or an environment; a light outside needs no portal");
       continue;
     }
     const PortalLook look = lookThrough(s.world, *portal);
@@ -84,8 +84,8 @@ void portalUseless(const LintScene& s, Findings& findings) {
            "a portal lies in the opening of a window, with the sky on one side of it");
     else if (look.past > kMuchPastIt * look.looks)
       warn(findings, "portal", source.place,
-           "the portal stands in the open: of what is behind it, the sky is seen past the portal",
-           "move it into the opening of a room; where there is none, the picture has less noise without it");
+           "the portal stands in the open: points behind it see the sky past the portal",
+           "move it into the opening of a room; without a room, the picture has less noise without a portal");
   }
 }
 

@@ -1,4 +1,4 @@
-// What lint asks of a world by tracing rays: what is inside what, and what a light shines on.
+// Facts that lint finds by tracing rays: which object is inside which, and where a light shines.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@ namespace trace {
 /// every one of many directions. So an open surface encloses nothing.
 std::vector<std::uint32_t> objectsAround(const World& world, const Vec3& point);
 
-/// The object closes off what is around the point: the one crossing that a ray from there has with it is the
+/// The object closes off the environment the point: the one crossing that a ray from there has with it is the
 /// last with anything; so in half of many directions or more, and in the others it is not met. Spheres and
-/// boxes that enclose the point do, and so do domes, and planes without end.
+/// boxes that enclose the point do, and so do domes, and infinite planes.
 bool isShell(const World& world, std::uint32_t object, const Vec3& point);
 
 /// The most light that arrives at anything around the point where the light stands.

@@ -12,7 +12,7 @@
 namespace trace {
 namespace {
 
-constexpr int kWidth = 64, kHeight = 48;  ///< of the picture that is surveyed
+constexpr int kWidth = 64, kHeight = 48;  ///< width and height of the picture that is surveyed
 constexpr int kVisible = 16;              ///< levels: a difference that nobody overlooks
 constexpr Real kCounts = 0.02;            ///< a ray of less weight shows too little
 
@@ -123,7 +123,8 @@ class Surveyor {
     const bool scattering = scatters(*node.bsdf);
     ++seen.places;
     seen.couldBeLit += scattering;
-    // What a mirror or glass shows is no light on its own surface, but it is not black for lack of light.
+    // The reflection in a mirror or glass is no light on its own surface, but it is not black for lack of
+    // light.
     seen.lit += !isBlack(node.radiance) || material.mirrors() || material.transmits();
     seen.direct += std::any_of(node.terms.begin(), node.terms.end(), [](const Term& term) {
       return term.light && !isBlack(term.factor * term.value);
@@ -150,7 +151,7 @@ class Surveyor {
         }
       if (isBlack(shadow.radiance)) continue;
       ++lamp.reached[node.hit->object];
-      // What comes to glass through other glass, or from the far side of its own, is not seen as light.
+      // Light that reaches glass through other glass, or from the far side of its own, is not counted.
       if (!material.transmits()) arrived(lamp, shadow);
     }
   }

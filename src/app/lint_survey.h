@@ -1,4 +1,4 @@
-// What lint sees of a scene in a sparse picture.
+// Statistics that lint takes from a coarse picture of a scene.
 #pragma once
 
 #include <cstddef>
@@ -19,25 +19,25 @@ namespace trace {
 struct Survey {
   struct Seen {
     int places = 0;                          ///< where a ray that counts in the picture met the object
-    int lit = 0;                             ///< of them: something other than black comes back
-    int direct = 0;                          ///< of them: light comes straight from a source
-    int couldBeLit = 0;                      ///< of them: the material scatters light
+    int lit = 0;                             ///< number of those from which anything but black returns
+    int direct = 0;                          ///< number of those with direct light
+    int couldBeLit = 0;                      ///< number of those whose material scatters light
     int facesAway = 0;                       ///< pairs of a place and a light behind the surface there
     int unlinked = 0;                        ///< pairs of a place and a light that links keep off the object
     int outOfCone = 0;                       ///< pairs of a place and a spot light that shines elsewhere
     std::map<std::uint32_t, int> blockedBy;  ///< pairs of a place and a light, by what is between
-    int sent = 0;                            ///< mirrored and refracted rays that went on from it
-    int leftScene = 0;                       ///< of them: met nothing, where a background would be seen
-    int mirroredAway = 0;                    ///< of these: mirrored
+    int sent = 0;                            ///< mirrored and refracted rays that continued from it
+    int leftScene = 0;     ///< number of those that hit nothing, where a background would be seen
+    int mirroredAway = 0;  ///< number of those that were mirrored
   };
   struct Lamp {
     int places = 0;      ///< that scatter light and that it would shine on, were nothing in the way
-    Real strongest = 0;  ///< of what arrives there, or at what stands around the light
+    Real strongest = 0;  ///< strongest of what arrives there, or at what stands around the light
     std::map<std::uint32_t, int> reached;  ///< shadow rays that arrived, by where they came from
     /// Shadow rays that did not arrive, by where they came from and what is between.
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> blocked;
     int reachedOthers = 0;    ///< places on what is no glass itself
-    int throughGlass = 0;     ///< of them: through something that refracts
+    int throughGlass = 0;     ///< number of those that passed a refracting object
     std::uint32_t glass = 0;  ///< the first of these
   };
   std::vector<Seen> objects;  ///< like Scene::objects

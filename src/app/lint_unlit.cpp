@@ -19,7 +19,7 @@ void causticsMissing(const LintScene& s, Findings& findings) {
   if (!missing) return;
   const Place& place = s.scene.lights[missing->light].place;
   warn(findings, "caustics-missing", place,
-       quoted(s, missing->object) + " throws no bright spots (caustics) of " +
+       quoted(s, missing->object) + " has no caustics of " +
            (place.line > 0 ? "this light: " : "the light that Trace chose: ") + missing->why,
        missing->hint);
 }
@@ -34,7 +34,7 @@ bool spotsOnNothing(const LintScene& s, Findings& findings) {
     if (!spot || isOff || s.survey.lights[i].places > 0 || shinesOnSomething(s.world, *spot)) continue;
     found = true;
     warn(findings, "unlit", source.place, "the spot light shines on nothing: no object is in its cone",
-         "turn its direction to what it should light, or give it a larger angle");
+         "turn it to the object that it should light, or give it a larger angle");
   }
   return found;
 }
@@ -56,7 +56,7 @@ void unlit(const LintScene& s, Findings& findings) {
   const std::string lamp =
       shines < all && !asksLamps ? "; --lamp-samples 4 lets " + quoted(s, shines) + " light it" : "";
   const std::string thrown =
-      gathers < all ? "; --integrator photon shows what " + quoted(s, gathers) + " throws on it" : "";
+      gathers < all ? "; --integrator photon shows the caustics of " + quoted(s, gathers) + " on it" : "";
   const bool isCauseSaid = spotsOnNothing(s, findings);
   std::set<std::uint32_t> cases;  // around a light, of which light-inside tells
   for (const LightSource& source : s.scene.lights)
@@ -77,17 +77,17 @@ void unlit(const LintScene& s, Findings& findings) {
       cause = "; it is outside the cone of the spot light";
       hint = "turn a spot light's direction to it, or give it a larger angle";
     } else if (others == 0) {
-      hint = "add a light that shines there";
+      hint = "add a light there";
     } else if (seen.facesAway > blocked) {
       cause = "; it faces away from the lights";
-      hint = "move a light to the side that is seen or turn its faces round";
+      hint = "move a light to the visible side or turn its faces round";
     } else {
       cause = most->first == object ? "; it stands in its own light"
-                                    : "; in the way is " + quoted(s, most->first);
-      hint = "move the light or what is in the way";
+                                    : "; it is blocked by " + quoted(s, most->first);
+      hint = "move the light or the blocking object";
     }
     warn(findings, "unlit", placeOf(s, object),
-         quoted(s, object) + " is seen, but no light reaches what is seen of it: it is black" + cause,
+         quoted(s, object) + " is visible, but no light reaches its visible side: it is black" + cause,
          hint + ambient + lamp + thrown);
   }
 }

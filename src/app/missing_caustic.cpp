@@ -29,9 +29,9 @@ std::string reasonOf(const Settings& settings, const Light& light) {
   if (settings.integrator == IntegratorKind::direct)
     return "--integrator direct follows no light that bounces";
   if (isMet(light)) return "shadow rays run straight through glass";
-  if (!hasSize(light)) return "the light has no size, so no path meets it";
-  return canBeVisible(light) ? "the light is not visible, so no path meets it"
-                             : "rays do not see a light of this kind, so no path meets it";
+  if (!hasSize(light)) return "the light has no size, so no path hits it";
+  return canBeVisible(light) ? "the light is not visible, so no path hits it"
+                             : "rays do not see a light of this kind, so no path hits it";
 }
 
 }  // namespace

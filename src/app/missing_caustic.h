@@ -17,7 +17,7 @@ struct MissingCaustic {
   std::string why, hint;
 };
 
-/// The object throws much of the light that it meets on others, gathered: it mirrors, or bends what passes.
+/// The object throws much of the light that it meets on others, gathered: it mirrors or refracts.
 bool gathersLight(const World& world, std::uint32_t object, bool byGlassAlone = false);
 
 /// The render shows the light that such objects throw.

@@ -50,7 +50,7 @@ class OrbitCamera {
 
   Vec3 target_;
   Real distance_ = 5, azimuth_ = 0.5, elevation_ = 0.3;
-  Real height_;  ///< of the view, at distance 1
+  Real height_;  ///< height of the view, at distance 1
   int up_ = 1;   ///< the axis that is up
   Real sign_ = 1;
 };

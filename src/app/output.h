@@ -16,7 +16,7 @@ namespace trace {
 
 struct Output {
   std::string path;
-  int layer = -1;         ///< of the Film; -1 is the picture, or a pass that is made of it
+  int layer = -1;  ///< number of the layer of the Film; -1 is the picture, or a pass that is made of it
   std::string_view pass;  ///< its name; "" is the picture
 };
 
@@ -36,7 +36,7 @@ bool isRendered(const Output& output, const Size& size, const Metadata& metadata
 /// all but those of the group Resources, which do not change the picture.
 Metadata describe(const Scene& scene, const Settings& settings);
 
-/// What the file shows of what was rendered: two eyes in one place, if that is asked for.
+/// The picture that the file shows of a render: two eyes combined, if that is asked for.
 Picture finished(Picture rendered, const Settings& settings);
 Size finished(const Size& rendered, const Settings& settings);
 
@@ -44,7 +44,7 @@ Size finished(const Size& rendered, const Settings& settings);
 /// over.
 void checkIsNoInput(const std::string& path, const InputFiles& inputs);
 
-/// What is made of a film before it is written.
+/// The steps between a film and its file.
 enum class LastSteps {
   all,
   plain,  ///< nothing that may take long: no noise taken out, no bloom, no passes; a fragment therefore

@@ -54,10 +54,10 @@ std::vector<PathWay> pathWays(const RayTree& tree) {
 
 std::string whyNoWays(const RayTree& tree, const Settings& settings) {
   if (settings.integrator == IntegratorKind::mlt)
-    return "The numbers of this sample chose one way to join its paths, and found no such path.";
+    return "The random numbers of this sample chose one strategy, and found no such path.";
   const RayNode& camera = rayAt(tree, 0);
   if (!camera.hit && !scatteredIn(camera))
-    return "The camera ray met nothing, so there is no place to join with a light.";
+    return "The camera ray hit nothing, so there is no vertex to connect with a light.";
   std::string text = "No paths were joined in this sample";
   const char* joint = " with ";
   for (const auto& [places, end, option] :
@@ -89,7 +89,7 @@ std::string sentence(const PathWay& way, const RayTree& tree, const Scene& scene
     return isBlack(ray.radiance) ? "not seen by the camera: " + sentence(ray, scene)
                                  : "seen by the camera, elsewhere in the picture";
   }
-  std::string text = way.light == 1 ? "asked a light" : "joined both paths";
+  std::string text = way.light == 1 ? "sampled a light" : "connected both paths";
   if (way.between < 0) return text;
   const RayNode& ray = rayAt(tree, way.between);
   if (const Term* term = termOf(tree, way.between); term && !isBlack(term->factor * term->value)) {

@@ -17,11 +17,11 @@ struct PathWay {
   int light = 0, camera = 0;
   int end = 0;       ///< the ray to the last place from the camera's end; -1: of camera = 1
   int start = -1;    ///< the ray to the last place from the light's end, of light > 1
-  int between = -1;  ///< the ray that joins the two, or asks a light; -1: none was sent
+  int between = -1;  ///< the ray that joins the two, or samples a light; -1: none
   Real share = 1;    ///< what it counts among all ways that find such paths
   Color brings;      ///< to the pixel
   int places() const { return light + camera; }
-  /// What it would bring if it were the only way.
+  /// The contribution if it were the only strategy.
   Color alone() const { return share > 0 ? brings / share : Color(); }
 };
 
@@ -35,7 +35,7 @@ std::string whyNoWays(const RayTree& tree, const Settings& settings);
 /// The rays of the path, from the camera to the light.
 std::vector<int> raysOf(const RayTree& tree, const PathWay& way);
 
-/// "asks a lamp: blocked by bowl".
+/// "sampled a light: blocked by bowl".
 std::string sentence(const PathWay& way, const RayTree& tree, const Scene& scene);
 
 }  // namespace trace

@@ -12,7 +12,7 @@ namespace trace {
 /// Brightened by `stops` powers of two and rounded to levels. 0 stops gives the levels of a file.
 Bytes exposed(const Picture& picture, double stops, Rounding rounding);
 
-/// What a pixel is, in words: its linear colour, and the levels of what the tone makes of it.
+/// The values of a pixel in words: its linear colour, and the levels after tone mapping.
 std::string pixelText(const Color& linear, const Color& toned, Rounding rounding);
 
 /// |a - b| * magnify for each channel. Precondition: the same size.
@@ -28,7 +28,7 @@ Bytes fewerPixels(const Bytes& picture, int most);
 /// The colour that falseColours() gives a value.
 Color falseColour(double value);
 
-/// What may be seen of a render in place of its picture.
+/// The views of a render that may replace its picture.
 enum class FilmPlane { picture, samples, noise, change };
 inline constexpr const char* kPlaneNames[] = {"Picture", "Samples", "Noise", "Denoised: change"};
 

@@ -5,20 +5,21 @@
 namespace trace {
 namespace {
 
-/// What a pixel shows at most: those that are divided show corners of their neighbours, too.
+/// The largest number of rays of a pixel: those that are divided show corners of their neighbours, too.
 int mostRaysOf(const Settings& settings) {
   const int across = (1 << settings.subdivide) + 1;
   return subdivides(settings) ? across * across : samplesOf(settings);
 }
 
-/// What has a part in the picture, and no ray of the pixel; the light image of bdpt the film knows.
+/// Parts of the picture to which no ray of the pixel contributes; the film knows the light image of bdpt.
 std::string noteOn(const Settings& settings) {
   if (settings.integrator == IntegratorKind::mlt)
-    return "Chains made this picture, in no order of pixels: these are paths to whose mean they tend.";
+    return "Markov chains made this picture, in no order of pixels: these paths show the mean that they "
+           "converge to.";
   return settings.denoise ? "Denoise makes the pixel a mean of pixels that are alike." : "";
 }
 
-/// What follows from the tree.
+/// Facts that follow from the tree.
 void arrange(TracedPixel& pixel) {
   pixel.segments = raySegments(pixel.tree());
   const std::vector<RayNode>& rays = pixel.tree().nodes;

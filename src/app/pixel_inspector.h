@@ -20,10 +20,10 @@ struct TracedPixel {
   int x = 0, y = 0, sample = 0;
   Explanation explanation{};
   std::vector<RaySegment> segments{};  ///< one for each ray
-  std::vector<int> level{};            ///< of each ray in the tree; the camera ray's is 0
+  std::vector<int> level{};            ///< level of each ray in the tree; the camera ray's is 0
   std::vector<char> hasChildren{};
   std::vector<PathWay> ways{};  ///< that its paths from both ends were joined in
-  /// What its rays leave unsaid of the picture; "" if nothing.
+  /// A remark on parts of the picture that its rays do not explain; "" if none.
   std::string note{};
   std::string problem{};  ///< why there are no rays; "" if there are
 
@@ -32,7 +32,7 @@ struct TracedPixel {
   RayLooks looks(int ray) const { return segments[static_cast<std::size_t>(ray)].looks; }
 };
 
-/// What a window shows of rays that were explained.
+/// The explained rays that a window shows.
 TracedPixel arrangedPixel(std::shared_ptr<const Session> session, Explanation explanation);
 
 /// Traces sample `sample` of the pixel, or its last one if it has fewer. Keeps errors as the problem.
@@ -41,7 +41,7 @@ TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int
 
 class PixelInspector {
  public:
-  /// Wants the rays of that sample; to be called often. Returns at once. Without a session: none.
+  /// Requests the rays of that sample; to be called often. Returns at once. Without a session: none.
   void want(const std::shared_ptr<const Session>& session, int x, int y, int sample);
   /// Keeps the rays that are there, to compare others with; or keeps them no longer.
   void pin(bool on);
@@ -55,7 +55,7 @@ class PixelInspector {
   const TracedPixel* pinned() const { return shown_.pinned.get(); }
   /// How the pinned rays and the traced ones differ; empty without both.
   const std::vector<RayPair>& pairs() const { return shown_.pairs; }
-  /// What was wanted last has not come yet.
+  /// The last request has not been answered yet.
   bool busy() const { return task_.busy(); }
 
  private:
@@ -69,7 +69,7 @@ class PixelInspector {
 
   Shown shown_;
   std::shared_ptr<const TracedPixel> pinned_;  // as asked for
-  std::shared_ptr<const Session> session_;     // of what was asked for
+  std::shared_ptr<const Session> session_;     // session of what was asked for
   int x_ = 0, y_ = 0, sample_ = 0;
   BackgroundTask<Shown> task_;
 };

@@ -1,5 +1,5 @@
-// What the studio remembers from one day to the next: a small text file of `key value` lines in the user's
-// folder for settings.
+// Preferences that the studio keeps from one day to the next: a small text file of `key value` lines in the
+// user's folder for settings.
 #pragma once
 
 #include <string>

@@ -48,7 +48,7 @@ std::uint64_t answer(const World& world, const std::vector<Query>& queries, bool
 
 RayBench::Kind measureKind(const World& world, std::string_view name, const std::vector<Query>& queries,
                            bool anyHit, int passes) {
-  constexpr double kLeastSeconds = 0.1;  // of a pass, which repeats the queries if they are few
+  constexpr double kLeastSeconds = 0.1;  // least seconds of a pass, which repeats the queries if they are few
   const Work work("measuring");
   RayBench::Kind kind{.name = name, .rays = queries.size()};
   Statistics statistics;

@@ -19,12 +19,12 @@ struct RayBench {
   struct Kind {
     std::string_view name;
     std::uint64_t rays = 0, hits = 0;
-    double seconds = 0;           ///< of CPU time for all of them: the median of the passes
+    double seconds = 0;           ///< seconds of CPU time for all of them: the median of the passes
     double nodes = 0, tests = 0;  ///< per ray: nodes of hierarchies visited; shapes and triangles tested
     double raysPerSecond() const { return seconds > 0 ? static_cast<double>(rays) / seconds : 0; }
   };
   double buildWall = 0, buildCpu = 0;      ///< seconds
-  std::uint64_t triangles = 0, bytes = 0;  ///< of all meshes; of the hierarchies
+  std::uint64_t triangles = 0, bytes = 0;  ///< triangles and bytes of all meshes; of the hierarchies
   std::vector<Kind> kinds;                 ///< those that the scene has rays of
 };
 

@@ -104,7 +104,7 @@ class Panel {
   Affine toPlane_;
 };
 
-/// What the camera of the world sees, paler; white where nothing is.
+/// The view of the world's camera, paler; white where nothing is.
 DrawnPicture faint(const World& world, Settings settings, const Point2& at, double width, double height) {
   settings.width = static_cast<int>(width);
   settings.height = static_cast<int>(height);
@@ -129,7 +129,7 @@ DrawnPicture faint(const World& world, Settings settings, const Point2& at, doub
   return {at, std::move(picture)};
 }
 
-/// The same by how much what is met faces the eye, without the light of the scene: of rooms with few samples
+/// Shades surfaces by how much they face the eye, without the light of the scene: of rooms with few samples
 /// by `path` there would be nothing but noise. Walls that hide the place `inside` are left out.
 DrawnPicture sketch(const World& world, const std::vector<std::uint32_t>& walls, const Vec3& inside,
                     const Point2& at, double width, double height) {
@@ -293,7 +293,7 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
     }
   };
   for (const RayLook& row : kRayLooks) entry(std::string(row.help), row.color, false);
-  entry("dashed: goes on without end", kInk, true);
+  entry("dashed: leaves the scene", kInk, true);
   entry("short: the surface's normal", kInk, false);
   return drawing;
 }

@@ -11,7 +11,7 @@ struct RaySegment {
   int node = 0;  ///< index into RayTree::nodes
   RayLooks looks = RayLooks::camera;
   Vec3 from, to;
-  bool leaves = false;  ///< it goes on without end; drawn in part
+  bool leaves = false;  ///< it continues infinite; drawn in part
 };
 
 /// The medium that sent the path of the ray on; null if none did.

@@ -30,7 +30,7 @@ std::vector<std::vector<int>> childrenOf(const RayTree& tree) {
   return children;
 }
 
-/// What a ray is for, seen from its parent: rays of two trees with the same name correspond.
+/// The role of a ray, seen from its parent: rays of two trees with the same name correspond.
 std::pair<RayKind, std::uint32_t> rayIdentity(const RayTree& tree, int node) {
   return {rayAt(tree, node).kind, lightOf(tree, node).value_or(0)};
 }

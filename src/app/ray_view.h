@@ -1,4 +1,4 @@
-// What a window shows of a RayTree: classes of rays with names, where each ray is drawn from and to, its
+// The view of a RayTree in a window: classes of rays with names, where each ray is drawn from and to, its
 // numbers in words, and how two trees differ.
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace trace {
 
-/// What the ray carries to the pixel: the largest channel of weight * radiance for rays that bring light.
+/// The contribution of the ray to the pixel: the largest channel of weight * radiance for rays that bring
+/// light.
 Real share(const RayNode& node);
 /// "0.12 0.1 0.0813": red, green and blue.
 std::string channels(const Color& c);

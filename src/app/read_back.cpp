@@ -57,7 +57,7 @@ std::size_t firstMissing(const std::vector<Thing>& wanted, const std::vector<Thi
   return wanted.size();
 }
 
-/// What of the scene would be lost; "" for nothing.
+/// The part of the scene that would be lost; "" for nothing.
 std::string lost(const Scene& named, const Scene& back) {
   const Scene wanted = withoutNames(named), found = withoutNames(back);
   const std::size_t object =
@@ -80,8 +80,7 @@ std::string lost(const Scene& named, const Scene& back) {
 }
 
 [[noreturn]] void refuse(Fault fault, const std::string& file, const std::string& why) {
-  throw Error(fault, Place{.file = file}, "not saved: " + why,
-              "undo, or correct what was edited, and save again");
+  throw Error(fault, Place{.file = file}, "not saved: " + why, "undo, or correct the edit, and save again");
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a scene would be once it is written and read again, before it is written.
+// A check of a scene before it is written: whether writing and reading it again gives the same scene.
 #pragma once
 
 #include <vector>

@@ -18,7 +18,7 @@ std::optional<double> RemainingTime::update(double elapsed, double fraction, dou
   done_ = std::max(done_, fraction);
   if (fraction < kLeastFraction) return {};
   constexpr double kSmoothing = 8;  // the estimate settles over this part of the time elapsed
-  const double onAverage = elapsed / fraction - elapsed;  // if the rest goes on as until now
+  const double onAverage = elapsed / fraction - elapsed;  // if the rest continues as until now
   const double ofLate = recent_ > 0 ? (1 - fraction) * recentTime_ / recent_ : onAverage;
   const double steady = std::max(onAverage, ofLate);
   if (!left_) {

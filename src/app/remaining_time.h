@@ -21,7 +21,7 @@ class RemainingTime {
  private:
   std::optional<double> left_;
   double last_ = 0;                     // seconds, of the last update
-  double clock_ = 0, done_ = 0;         // of the update before: seconds and share
+  double clock_ = 0, done_ = 0;         // clock and done of the update before: seconds and share
   double recentTime_ = 0, recent_ = 0;  // seconds and share, of which older ones count less and less
 };
 

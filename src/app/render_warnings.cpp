@@ -39,8 +39,8 @@ bool hasSun(const Scene& scene) {
                      [](const LightSource& l) { return std::holds_alternative<DirectionalLight>(l.light); });
 }
 
-/// Some rays of the camera meet nothing, or some that go on from where they end, in any direction: in a room
-/// with a window the air outside is lit, too.
+/// Some rays of the camera meet nothing, or some that continue from where they end, in any direction: in a
+/// room with a window the air outside is lit, too.
 bool seesBeyond(const World& world) {
   constexpr int kAcross = 16, kPlaces = 6;
   Statistics uncounted;
@@ -68,15 +68,13 @@ const Object* firstWith(const Scene& scene, Is&& is) {
 
 /// A drawing, made for the light of lamps alone.
 bool draws(const MaterialModel& model) {
-  return match(model, []<class Model>(const Model&) {
-    return !std::is_same_v<Model, Phong> && !Model::kReciprocal && !Model::kKeepsEnergy;
-  });
+  return !model.is<Phong>() && !model.type().reciprocal && !model.type().keepsEnergy;
 }
 
 /// Phong's model lets it surely give back more light than it gets.
 bool gainsLight(const MaterialModel& model) {
   constexpr Real kMuch = 1.25;  // less is lost again in most scenes
-  const auto* phong = std::get_if<Phong>(&model);
+  const auto* phong = model.as<Phong>();
   if (!phong) return false;
   return maxComponent(phong->diffuse + (phong->transmits() ? phong->transmissive : phong->reflective)) >
          kMuch;
@@ -196,10 +194,9 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
                ": the eyes stand so far apart that each looks past the scene",
            "without it they stand a thirtieth of the distance to the scene apart");
     if (s.aperture > reach)
-      warn("--aperture " + toText(s.aperture) +
-           ": the lens is wider than the scene, of which nothing is sharp");
+      warn("--aperture " + toText(s.aperture) + ": the lens is wider than the scene, so nothing is in focus");
   }
-  if (!s.focusOn.none() && s.focus > 0) warn("--focus changes nothing: --focus-on says what is in focus");
+  if (!s.focusOn.none() && s.focus > 0) warn("--focus changes nothing: --focus-on sets the focus");
   if (s.lightChoices > 0 && world.lights().size() < 2)
     warn("--light-choices changes nothing: the scene has fewer than two lights");
 
@@ -207,7 +204,7 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
   if (whitted && s.caustics > 0) {
     if (world.lights().empty())
       warn("--caustics changes nothing: the scene has no light that sends photons",
-           "objects that shine send none; --integrator path follows their light");
+           "emissive objects emit none; --integrator path traces their light");
     else if (!anyObject(world,
                         [](const WhittedTerms& terms) { return terms.mirrors() || terms.transmits(); }))
       warn("--caustics changes nothing: nothing in the scene mirrors or refracts");
@@ -227,20 +224,18 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
     warn("--caustic-texels changes nothing: there are no photons to gather", "--caustics 200000 sends some");
   if (whitted && s.lampSamples > 0 && Lamps(world, s.threads, true).empty())
     warn(
-        "--lamp-samples changes nothing: no square, ball or mesh of the scene shines, and its sky is the "
-        "same all around",
-        "give an object an emissive color; other shapes that shine light nothing");
+        "--lamp-samples changes nothing: no square, ball or mesh of the scene is emissive, and its sky is "
+        "uniform",
+        "give an object an emissive color; other emissive shapes light nothing");
   if (whitted && s.ambientOcclusion > 0 && isBlack(world.ambient()))
     warn("--ambient-occlusion changes nothing: the scene has no ambient light");
 
   if (whitted && s.lampSamples == 0 && world.lights().empty() && !Lamps(world, s.threads).empty() &&
       anyObject(world, [](const WhittedTerms& terms) { return isBlack(terms.emissive); }))
     warn(anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); })
-             ? "nothing lights the scene but objects that shine, and for --integrator whitted they light "
-               "nothing"
-             : "nothing lights the scene but what is around it, and for --integrator whitted that lights "
-               "nothing",
-         "--lamp-samples 4 lets it; --integrator path follows the light further");
+             ? "only emissive objects light the scene, and for --integrator whitted they light nothing"
+             : "only the environment lights the scene, and for --integrator whitted it lights nothing",
+         "--lamp-samples 4 samples it; --integrator path traces the light further");
 
   if (s.integrator == IntegratorKind::photon && s.photonPasses > samplesOf(s) &&
       s.photonPasses != Settings{}.photonPasses)
@@ -248,25 +243,23 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
              ": each sample of a pixel takes one map, and --spp gives " + std::to_string(samplesOf(s)),
          "choose --spp at least as large: no other maps are made");
   if (s.integrator == IntegratorKind::bdpt && s.unweighted && s.lightVertices < 0 && s.cameraVertices < 0)
-    warn("--unweighted: all light counts as often as there are ways to find it",
-         "--light-vertices S or --camera-vertices T shows one of the ways");
+    warn("--unweighted: all light counts once for each strategy",
+         "--light-vertices S or --camera-vertices T shows one of the strategies");
 
   if (s.integrator == IntegratorKind::bdpt && s.cameraVertices == 0)
-    warn("--camera-vertices 0 shows nothing: the camera is one of every path's places",
-         "--camera-vertices 1 shows what paths from lights bring straight to it");
+    warn("--camera-vertices 0 shows nothing: the camera is a vertex of every path",
+         "--camera-vertices 1 shows the light image");
   if (s.integrator == IntegratorKind::bdpt && world.media().empty() && !(s.fog > 0) &&
       s.lightVertices + std::max(s.cameraVertices, 1) > s.depth + 3)
     warn("--light-vertices and --camera-vertices show nothing: with --depth " + std::to_string(s.depth) +
-             " a path has " + std::to_string(s.depth + 3) + " places at most",
-         "choose a larger --depth, or fewer places");
+             " a path has " + std::to_string(s.depth + 3) + " vertices at most",
+         "choose a larger --depth, or fewer vertices");
   if (chains && !changesPaths(s) && !(s.mutations == Settings{}.mutations))
-    warn("--mutations changes nothing: the chains change numbers of samples",
-         "--chains veach changes paths place by place");
+    warn("--mutations changes nothing: the chains change random numbers",
+         "--chains veach mutates the vertices of paths");
   if (changesPaths(s) && s.fireflyLimit > 0)
-    warn(
-        "--firefly-limit changes nothing: chains of --chains veach are the longer at a path the brighter it "
-        "is",
-        "more samples (--spp) spread them");
+    warn("--firefly-limit changes nothing: chains of --chains veach stay longer at a brighter path",
+         "more samples (--spp) spread them");
   if (changesPaths(s) && (s.lightSamples > 1 || s.lightChoices > 0))
     warn("--light-samples and --light-choices change nothing: a path of --chains veach ends at one light");
   constexpr int kFewStarts = 1000;
@@ -277,38 +270,38 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
 
   if (s.subsurfaceSamples != Settings{}.subsurfaceSamples && isConcerned(findOption("subsurface-samples")) &&
       !world.hasSubsurface())
-    warn("--subsurface-samples changes nothing: in no body of the scene does light spread",
-         "library = marble and millimetres = 10 in a material let it");
+    warn("--subsurface-samples changes nothing: no object of the scene has subsurface scattering",
+         "library = marble and millimetres = 10 in a material add it");
 
   const auto glows = [](const World::MediumBody& body) { return !isBlack(body.model.most().glows); };
   if (s.integrator == IntegratorKind::photon &&
       std::any_of(world.media().begin(), world.media().end(), glows))
-    warn("--integrator photon sees the light that media give off, but sends no photons from there",
-         "--integrator path follows that light further");
+    warn("--integrator photon shows emissive media, but they emit no photons",
+         "--integrator path traces that light");
 
   const bool paths = isBidirectional(s) || s.integrator == IntegratorKind::path ||
                      s.integrator == IntegratorKind::direct || s.integrator == IntegratorKind::mlt ||
                      s.integrator == IntegratorKind::photon;
   const bool lastingFog = s.fog > 0 && s.fogHeight == 0 && s.mediumDepth > 1 && !isBlack(s.fogColor);
   if (paths && s.integrator != IntegratorKind::direct && lastingFog && hasSun(scene) && seesBeyond(world))
-    warn("the sun lights fog without end: with --integrator " + integrator +
-             " the fog is as bright as --medium-depth and the size of the scene let it be",
+    warn("the sun lights infinite fog: with --integrator " + integrator +
+             " its brightness depends on --medium-depth and the size of the scene",
          "--fog-height thins it out above; --medium-depth 1 scatters light once, as whitted does");
   if (paths && s.integrator != IntegratorKind::direct)
     if (const Object* gains = firstWith(scene, gainsLight))
-      messages.warn(
-          gains->place,
-          "its material gives back more light than it gets (diffuse beside transmissive or reflective, "
-          "perhaps inherited from the material before): with --integrator " +
-              integrator + " it and its surroundings grow brighter with --depth",
-          "diffuse = 0 makes clear glass and plain mirrors");
+      messages.warn(gains->place,
+                    "its material reflects more light than it receives (diffuse together with transmissive "
+                    "or reflective, perhaps inherited from the material before): with --integrator " +
+                        integrator + " it and its surroundings grow brighter with --depth",
+                    "diffuse = 0 makes clear glass and plain mirrors");
   if (paths)
     if (const Object* drawn = firstWith(scene, draws))
-      messages.warn(drawn->place,
-                    std::string(keywordOf(scene.materials[drawn->material].model)) +
-                        " draws, and may give back more light than it gets: with --integrator " + integrator +
-                        " its surroundings grow brighter with --depth",
-                    "--integrator whitted is meant for it");
+      messages.warn(
+          drawn->place,
+          std::string(scene.materials[drawn->material].model.keyword()) +
+              " is not photorealistic and may reflect more light than it receives: with --integrator " +
+              integrator + " its surroundings grow brighter with --depth",
+          "--integrator whitted is meant for it");
   if (paths && world.lights().empty() && !world.outside().isSeenBy(RayKind::bounce) &&
       !anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); }))
     warn("--integrator " + integrator +
@@ -328,8 +321,7 @@ void warnOfEmptyMedia(const Scene& scene, Messages& messages) {
                       material.mediumAbsorbs != usual.mediumAbsorbs ||
                       material.mediumGlows != usual.mediumGlows;
     if (!says || material.mediumDensity > 0) continue;
-    messages.warn(object.place,
-                  "its material says what a medium does, and medium_density is 0: nothing fills the body",
+    messages.warn(object.place, "its material has fields of a medium, but medium_density is 0: there is none",
                   "medium_density = 1 takes the other fields as they are");
     return;
   }
@@ -389,7 +381,7 @@ void warnOfMissingCaustics(const Scene& scene, const Settings& settings, const W
   if (!missing) return;
   const Place& place = scene.lights[missing->light].place;
   messages.warn(place,
-                objectName(scene, missing->object) + " throws no bright spots (caustics) " +
+                objectName(scene, missing->object) + " has no caustics " +
                     (place.line > 0 ? "of this light: " : "of the light that Trace chose: ") + missing->why,
                 missing->hint);
 }

@@ -1,4 +1,4 @@
-// What an edit of a scene means for a list of its things that a window shows: which one came, or went.
+// The meaning of an edit for a list of the scene's parts that a window shows: which one came, or went.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ std::optional<std::size_t> oneMore(const std::vector<Thing>& fewer, const std::v
 /// links mean both; "" for none.
 std::string sharedName(const Scene& before, const Scene& after);
 
-/// Where objects or lights have other names in `after` than in `before`, links go on naming them, but for an
-/// old name that another one still has.
+/// Where objects or lights have other names in `after` than in `before`, links continue naming them, except
+/// for an old name that another one still has.
 void followNames(const Scene& before, Scene& after);
 
 /// How many objects are of the material, or have a part that is: an object of a solid, a side of a surface.

@@ -12,8 +12,8 @@
 namespace trace {
 namespace {
 
-constexpr int kDivisions = 24;          // of a shape's longest side
-constexpr int kDivisionsOfSolids = 72;  // of one made of objects, whose curved edges are to look smooth
+constexpr int kDivisions = 24;          // divisions of a shape's longest side
+constexpr int kDivisionsOfSolids = 72;  // for solids of solids, whose edges should look smooth
 constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
 constexpr int kLooks = 24;        // rays across and down, to find what a camera sees
 constexpr double kAside = 0.2;    // share of the picture on each side that is not asked
@@ -31,7 +31,7 @@ Color lookOf(const Phong& m) {
 }
 
 Real opacityOf(const Phong& m) {
-  constexpr Real kLeast = 0.12;  // of the clearest glass, which is to be seen
+  constexpr Real kLeast = 0.12;  // opacity of the clearest glass, which must stay visible
   return m.transmits() ? std::clamp(1 - maxComponent(m.transmissive), kLeast, 1.0) : 1;
 }
 
@@ -44,7 +44,7 @@ Real reach(const Box3& box, const Vec3& from) {
   return farthest;
 }
 
-/// What each object takes of the world: everything if it has no end, nothing if it is not drawn.
+/// The part of the world that each object occupies: everything if it is infinite, nothing if it is not drawn.
 std::vector<Box3> drawnBoxes(const Scene& scene) {
   std::vector<Box3> boxes(scene.objects.size());
   std::vector<Real> reaches;

@@ -15,13 +15,13 @@
 
 namespace trace {
 
-/// What of an object is of one material.
+/// A part of an object that has one material.
 struct ScenePart {
   std::uint32_t object = 0;          ///< index into Scene::objects
   Color color;                       ///< what it looks like in white light
-  Real opacity = 1;                  ///< less of what lets light through
-  std::size_t first = 0, count = 0;  ///< of SceneModel::corners
-  std::array<Vec3, 8> box;  ///< of the object's own bounds, in the world: bits of the index are x, y, z
+  Real opacity = 1;                  ///< less of what transmits light
+  std::size_t first = 0, count = 0;  ///< first and count of SceneModel::corners
+  std::array<Vec3, 8> box;  ///< box of the object's own bounds, in the world: bits of the index are x, y, z
 };
 
 struct SceneModel {
@@ -31,7 +31,7 @@ struct SceneModel {
   /// Position and normal, six floats for each corner of a triangle.
   std::vector<float> corners;
   std::vector<ScenePart> parts;
-  std::vector<Message> warnings;  ///< of shapes that are drawn coarser than others, or not at all
+  std::vector<Message> warnings;  ///< warnings of shapes that are drawn coarser than others, or not at all
 
   std::array<float, 3> local(const Vec3& world) const {
     const Vec3 p = (world - origin) / scale;
@@ -39,7 +39,7 @@ struct SceneModel {
   }
 };
 
-/// Around the objects that have an end and the camera, but for those so far out that the others would be a
+/// Around the objects that have an end and the camera, except for those so far out that the others would be a
 /// dot beside them. Empty if there are none.
 Box3 frameOf(const Scene& scene);
 
@@ -47,7 +47,7 @@ Box3 frameOf(const Scene& scene);
 class SceneModeler {
  public:
   /// Models all objects. It leaves out those whose transform cannot be undone, as a render does, and those
-  /// that frameOf() leaves out. Objects without end are cut off some way around the others and the camera.
+  /// that frameOf() leaves out. Infinite objects are cut off some way around the others and the camera.
   /// `cancelled`, if any, is asked after every object; then the rest is left out.
   SceneModel model(const Scene& scene, const Cancelled& cancelled = {});
 
@@ -64,7 +64,7 @@ class SceneModeler {
   std::vector<Made> made_;  // the shapes of the last model, each once
 };
 
-/// What the camera looks at: a box around most of the points in the middle of its picture, those well outside
+/// The target of the camera: a box around most of the points in the middle of its picture, those well outside
 /// the frame left out. Empty if it sees nothing.
 Box3 seenBy(const World& world, const Box3& frame);
 

@@ -142,7 +142,7 @@ double notExplained() {
   return wrong;
 }
 
-/// Pixels of the mixture that change if it is stopped on the way, kept as bytes and gone on with.
+/// Pixels of the mixture that change if it is stopped on the way, kept as bytes and resumed.
 double afterAStop() {
   const auto part = sessionOf(kMixture), rest = sessionOf(kMixture);
   std::thread stopper([&] {
@@ -225,26 +225,26 @@ constexpr std::array kChecks{
                     "rectangle_light { position = (0, 1, 0); u = (1, 0, 0); v = (0, 0, 1); two_sided = true; "
                     "color = (1, 1, 1); }\n"));
               }},
-    SelfCheck{"open sky before a wall as high as it is far", "(1 + cos 45) / 2", 0.853553, 0.004,
+    SelfCheck{"open sky in front of a wall as high as it is far", "(1 + cos 45) / 2", 0.853553, 0.004,
               [] {
                 return mean(
                     pictureOf(patch("integrator = occlusion; ", "diffuse = (1, 1, 1);") +
                               "translate(-1, 0.5, 0, rotate(0, 1, 0, 1.5707963267948966, scale(10000, 1, 1, "
                               "square { })))\n"));
               }},
-    SelfCheck{"what passes through fog of 0.3 along 5", "exp(-1.5)", 0.22313, 1e-4,
+    SelfCheck{"transmittance of fog of 0.3 along 5", "exp(-1.5)", 0.22313, 1e-4,
               [] {
                 return mean(pictureOf(
                     "settings { width = 2; height = 2; fog = 0.3; fog-color = 0; }\n"
                     "camera { position = (0, 0, 5); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 0.001; }\n"
                     "square { material = { emissive = (1, 1, 1); } }\n"));
               }},
-    SelfCheck{"paths: light of a square lamp", "form factor 0.239456", 0.239456, 5e-4,
+    SelfCheck{"paths: light of a square emitter", "form factor 0.239456", 0.239456, 5e-4,
               [] {
                 return mean(
                     pictureOf(patch("integrator = path; depth = 1; ", "diffuse = (1, 1, 1);") + kLampAbove));
               }},
-    SelfCheck{"paths: a room that shines, 3 bounces", "(1 - a^5) / (1 - a), a = 0.5", 1.9375, 0.01,
+    SelfCheck{"paths: an emissive room, 3 bounces", "(1 - a^5) / (1 - a), a = 0.5", 1.9375, 0.01,
               [] { return roomOf("0.5", "3"); }},
     SelfCheck{"paths: the same, as many as there are", "1 / (1 - a), a = 0.8", 5, 0.03,
               [] { return roomOf("0.8", "60"); }},

@@ -11,7 +11,7 @@ struct SelfCheck {
   std::string_view known;  ///< where the value comes from
   double expected;
   double tolerance;  ///< by which what is found may differ
-  /// What is found. Throws what a render throws.
+  /// Runs the check and returns its result. Throws what a render throws.
   double (*find)();
 
   bool holds(double found) const { return found >= expected - tolerance && found <= expected + tolerance; }
@@ -33,7 +33,7 @@ class SelftestTime {
   struct Table {
     double known;  ///< seconds of one on the average, as the measurement says, weighed as kKnown checks
     std::size_t checks, done = 0;
-    double seconds = 0;  ///< of those that are done
+    double seconds = 0;  ///< seconds of those that are done
   };
   static constexpr double kKnown = 4;
   Table shorts_, longs_;

@@ -17,7 +17,7 @@ namespace {
 /// glass.
 enum class Room { diffuse, mirror, glass, door, sun, window, panel, projector, fog, metal, roughGlass };
 
-/// What is on such a floor, if it is one.
+/// The object on such a floor, if there is one.
 const char* floorText(Room room) {
   switch (room) {
     case Room::sun:
@@ -157,7 +157,7 @@ constexpr double kBias = 0.01, kSeenBias = 0.02;
 double alikeWithin(Room room, const Choices& other, double bias = kBias) {
   return agreementOf(room, kPathDeep, other, kSeeds, bias).least;
 }
-/// The same of tiles so small that some lie along the room's edges alone.
+/// Compares tiles so small that some lie along the room's edges alone.
 double edgesAlike(const Choices& other) {
   constexpr int kEdge = 4;
   constexpr double kEdgeBias = 0.03;
@@ -168,7 +168,7 @@ double brighter(Room room, const Choices& other) {
   const Agreement a = agreementOf(room, kPath, other, kSeeds);
   return (a.meanB - a.meanA) / a.error;
 }
-/// ... in parts of it, without an end of the bounces.
+/// ... as a fraction of it, without an end of the bounces.
 double ratio(Room room, const Choices& other) {
   const Agreement a = agreementOf(room, kPathDeep, other, kSeeds);
   return a.meanB / a.meanA;
@@ -222,13 +222,13 @@ constexpr std::array kLongChecks{
               [] { return brighter(Room::glass, kMltBdpt); }},
     SelfCheck{"mlt over bdpt and path: a door ajar", kMeans, 0, kErrors,
               [] { return brighter(Room::door, kMltBdpt); }},
-    SelfCheck{"mlt over paths' places and path: a room", kMeans, 0, kErrors,
+    SelfCheck{"mlt veach and path: a room", kMeans, 0, kErrors,
               [] { return brighter(Room::diffuse, kMltVeach); }},
-    SelfCheck{"mlt over paths' places and path: with a mirror", kMeans, 0, kErrors,
+    SelfCheck{"mlt veach and path: with a mirror", kMeans, 0, kErrors,
               [] { return brighter(Room::mirror, kMltVeach); }},
-    SelfCheck{"mlt over paths' places and path: with a ball of glass", kMeans, 0, kErrors,
+    SelfCheck{"mlt veach and path: with a ball of glass", kMeans, 0, kErrors,
               [] { return brighter(Room::glass, kMltVeach); }},
-    SelfCheck{"mlt over paths' places and path: a door ajar", kMeans, 0, kErrors,
+    SelfCheck{"mlt veach and path: a door ajar", kMeans, 0, kErrors,
               [] { return brighter(Room::door, kMltVeach); }},
     SelfCheck{"mlt and path: a panel behind a pane", kMeans, 0, kErrors,
               [] { return brighter(Room::window, kMlt); }},
@@ -247,7 +247,7 @@ constexpr std::array kLongChecks{
               [] { return edgesAlike(kPhotonDeep); }},
     SelfCheck{"photon and bdpt: off polished metal", "the light of bdpt", 1, 0.02,
               [] { return ratioToBdpt(Room::metal); }},
-    SelfCheck{"photon and bdpt: a lamp in rough glass", "the light of bdpt", 1, 0.02,
+    SelfCheck{"photon and bdpt: an emitter in rough glass", "the light of bdpt", 1, 0.02,
               [] { return ratioToBdpt(Room::roughGlass); }},
     SelfCheck{"photon and path: a door ajar", kBlur, 1, 0.03, [] { return ratio(Room::door, kPhotonDeep); }},
 };

@@ -59,7 +59,7 @@ std::uint64_t photonBytes(const Settings& settings) {
   return static_cast<std::uint64_t>(moments * photons) * sizeof(Photon);
 }
 
-/// What rays meet is the same in both.
+/// The geometry is the same in both.
 bool isSameAs(const Scene& a, const Scene& b) {
   return a.camera == b.camera && a.objects == b.objects && a.lights == b.lights &&
          a.materials == b.materials && a.background == b.background;
@@ -131,7 +131,7 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   if (read.changesWithTime)
     sceneAt_ = [file, bytes, rules = ReadScope::current()](Real moment) {
       const ReadScope scope(rules);
-      Messages known;  // they were told of the scene
+      Messages known;  // reported for the scene
       return readScene(file, bytes, known, moment);
     };
   fingerprint_ = scene_.inputs.fingerprint();
@@ -185,7 +185,7 @@ void Session::buildMoments() {
   if (settings_.shutter > 0 && !sceneAt_)
     messages_.warn(Place{.file = scene_.file},
                    "nothing in the scene changes with time: --shutter blurs nothing",
-                   "docs/animation.md tells how things move");
+                   "docs/animation.md describes animation");
   if (!(settings_.shutter > 0) || !sceneAt_) return add(*world_, settings_);
   Work work("building the moments of the shutter", settings_.moments);
   const Scene* before = &scene_;

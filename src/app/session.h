@@ -84,7 +84,7 @@ class Session {
     return trace::explain(moments_, settings_, size(), x, y, sample, cancelled);
   }
 
-  /// What is rendered so far. May be asked from other threads while renderPicture() runs.
+  /// The picture rendered so far. May be asked from other threads while renderPicture() runs.
   const Film& film() const { return *film_; }
   Film& film() { return *film_; }  ///< to fill with what was rendered before
   Picture picture() const { return pictureOfFilm(*film_, settings_); }
@@ -105,7 +105,7 @@ class Session {
 
   const std::vector<Phase>& phases() const { return phases_; }
 
-  /// What automatic exposure added to the settings' own, in stops; after build().
+  /// The exposure that automatic exposure added to the settings' own, in stops; after build().
   Real measuredExposure() const { return measuredExposure_; }
 
  private:
@@ -119,7 +119,7 @@ class Session {
   bool strict_ = false;
   std::optional<World> world_;
   std::vector<Moment> moments_;
-  std::list<Scene> scenes_;  // of the moments, if they are several
+  std::list<Scene> scenes_;  // the scenes of the moments, if there are several
   std::list<World> worlds_;
   std::list<std::unique_ptr<const Integrator>> integrators_;
   std::unique_ptr<Film> film_;

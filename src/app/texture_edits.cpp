@@ -1,12 +1,12 @@
 #include "app/texture_edits.h"
 
-#include <any>
 #include <memory>
 #include <utility>
 
 #include "base/error.h"
 #include "formats/ies.h"
 #include "formats/textures.h"
+#include "shading/textures/formula.h"
 
 namespace trace {
 namespace {
@@ -24,9 +24,9 @@ bool lacksPicture(const Pixels& pixels) { return !pixels.map && !pixels.file.emp
 
 /// The picture files that a texture lacks, or one in it.
 bool lacksPicture(const Texture& texture) {
-  const bool own = match(texture->model, [](const auto& model) {
-    if constexpr (requires { model.file.map; }) return lacksPicture(model.file);
-    return false;
+  bool own = false;
+  forEachField(texture->model, [&]<class Value>(const TextureField&, const Value& value) {
+    if constexpr (std::is_same_v<Value, Pixels>) own |= lacksPicture(value);
   });
   if (own) return true;
   for (const FieldTexture& input : texture->inputs)
@@ -34,34 +34,16 @@ bool lacksPicture(const Texture& texture) {
   return false;
 }
 
-/// What is to be seen of one that was chosen just now.
-template <class Model>
-Model newModel() {
-  Model model;
-  if constexpr (std::is_same_v<Model, Formula>) model.value = FormulaText("0.5 + 0.5 * sin(6 * x)");
+/// The texture that is shown right after a kind was chosen.
+TextureModel newModel(const TextureType& type) {
+  TextureModel model(type);
+  if (Formula* formula = model.edit<Formula>()) formula->value = FormulaText("0.5 + 0.5 * sin(6 * x)");
   return model;
 }
 
-template <class Model>
-void keepFields(Model& to, const TextureModel& from) {
-  match(from, [&]<class Other>(const Other& other) {
-    forEachField<Other>([&](const auto& was) {
-      const auto& value = other.*was.member;
-      using Value = std::remove_cvref_t<decltype(value)>;
-      if (value == Other{}.*was.member) return;  // another kind may have another default
-      forEachField<Model>([&](const auto& field) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(to.*field.member)>, Value>)
-          if (field.keyword == was.keyword) to.*field.member = value;
-      });
-    });
-  });
-}
-
-template <class Model>
-bool takesTexture(std::string_view keyword) {
+bool takesTexture(const TextureModel& model, std::string_view keyword) {
   bool takes = false;
-  forEachField<Model>([&](const auto& field) {
-    using Value = std::remove_cvref_t<decltype(std::declval<Model&>().*field.member)>;
+  forEachField(model, [&]<class Value>(const TextureField& field, const Value&) {
     takes |= (std::is_same_v<Value, Real> || std::is_same_v<Value, Color>)&&field.keyword == keyword;
   });
   return takes;
@@ -71,20 +53,18 @@ bool takesTexture(std::string_view keyword) {
 
 std::vector<TextureKind> textureKindsToChoose() {
   std::vector<TextureKind> kinds;
-  forEachType<TextureModel>([&]<class Model>(Model*) { kinds.push_back({Model::kKeyword, Model::kHelp}); });
+  for (const TextureType& type : textureTypes()) kinds.push_back({type.keyword, type.help});
   return kinds;
 }
 
 Texture textureOfKind(std::string_view keyword, const Texture* before) {
-  TextureNode node;
-  if (before) node = TextureNode{{}, {}, (*before)->placement, (*before)->inputs};
-  forEachType<TextureModel>([&]<class Model>(Model*) {
-    if (Model::kKeyword != keyword) return;
-    Model model = newModel<Model>();
-    if (before) keepFields(model, (*before)->model);
-    node.model = std::move(model);
-    std::erase_if(node.inputs, [](const FieldTexture& input) { return !takesTexture<Model>(input.field); });
-  });
+  TextureNode node{.model = newModel(rowCalled<TextureType>(keyword))};
+  if (!before) return node;
+  node.placement = (*before)->placement;
+  node.inputs = (*before)->inputs;
+  takeChangedFields(node.model, (*before)->model);
+  std::erase_if(node.inputs,
+                [&](const FieldTexture& input) { return !takesTexture(node.model, input.field); });
   return node;
 }
 
@@ -93,17 +73,17 @@ void removeTexture(std::vector<FieldTexture>& textures, std::string_view field) 
 }
 
 std::string whyIdle(const TextureModel& model, std::string_view field) {
-  return match(model, [&](const auto& m) -> std::string {
-    const bool isColor = field == "a" || field == "b";
-    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(m)>, Formula>) {
-      const bool colored = isColor || field == "ramp";
-      if (colored && m.value.text().empty()) return "value is empty";
-      if (!colored && field != "value" && !m.value.text().empty()) return "value counts instead";
-    }
-    if constexpr (requires { m.ramp; })
-      if (isColor && !m.ramp.empty()) return "ramp counts instead";
-    return "";
+  const bool isColor = field == "a" || field == "b";
+  if (const Formula* formula = model.as<Formula>()) {
+    const bool colored = isColor || field == "ramp";
+    if (colored && formula->value.text().empty()) return "value is empty";
+    if (!colored && field != "value" && !formula->value.text().empty()) return "value counts instead";
+  }
+  bool hasRamp = false;
+  forEachField(model, [&]<class Value>(const TextureField& f, const Value& value) {
+    if constexpr (std::is_same_v<Value, ColorRamp>) hasRamp |= f.keyword == "ramp" && !value.empty();
   });
+  return isColor && hasRamp ? "ramp counts instead" : "";
 }
 
 bool lacksFiles(const Scene& scene) {

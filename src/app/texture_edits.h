@@ -1,4 +1,4 @@
-// What a person does by hand to the texture of a field, in the studio.
+// Edits by hand of the texture of a field, in the studio.
 #pragma once
 
 #include <string>

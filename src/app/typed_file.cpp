@@ -20,7 +20,7 @@ std::string typedFile(const std::string& text, const std::string& option, const 
   std::error_code ignored;
   if (!fs::exists(file, ignored))
     throw Error(Fault::usage,
-                option + ": expected a file, found \"" + text + "\", which is not there; not taken",
+                option + ": expected a file, found \"" + text + "\", which does not exist; not accepted",
                 "names that begin at no root count from the scene's folder");
   return file;
 }

@@ -10,7 +10,7 @@ namespace trace {
 /// if a scene file cannot name it.
 std::string typedFile(const std::string& text, const std::string& option, const std::string& scene);
 
-/// What typedFile() takes for the value: without the scene's folder, if the file lies below it.
+/// The name that typedFile() takes for the value: without the scene's folder, if the file lies below it.
 std::string shownFile(const std::string& value, const std::string& scene);
 
 }  // namespace trace

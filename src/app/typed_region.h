@@ -10,7 +10,7 @@ namespace trace {
 /// picture. Other text comes back as it is, and the option says what it expects.
 std::string typedRegion(std::string_view text);
 
-/// What is shown for a value of the option: "" for the whole picture.
+/// The text shown for a value of the option: "" for the whole picture.
 std::string shownRegion(const std::string& value);
 
 }  // namespace trace

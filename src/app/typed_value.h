@@ -1,5 +1,5 @@
-// What a person types into a field counts when the field is left, by Enter or for another; Esc takes it back.
-// A window shows the value as it was until then, and tells in every frame what the text says.
+// A value typed into a field takes effect when the field is left, by Enter or for another; Esc restores the
+// old one. A window shows the value as it was until then, and tells in every frame what the text says.
 #pragma once
 
 #include <map>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSmallWidth = 96, kLargeWidth = 320, kSamples = 16;
 
-/// Of all ways; with those of the session that shows one of them.
+/// The picture of all strategies, with those of the session that shows one of them.
 Settings pyramidSettings(const PyramidPlan& plan) {
   Settings settings = plan.session->settings();
   settings.lightVertices = settings.cameraVertices = -1;
@@ -50,7 +50,7 @@ class CancelWatch {
   std::jthread thread_;
 };
 
-/// What these paths bring: all, if they have -1 places from both ends.
+/// The contribution of these paths: all, if they have -1 vertices from both ends.
 Picture wayPicture(const Session& session, Settings settings, const Way& way, const Cancelled& cancelled) {
   settings.lightVertices = way.light;
   settings.cameraVertices = way.camera;

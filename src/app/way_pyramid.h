@@ -23,7 +23,7 @@ struct Way {
 struct PyramidPlan {
   std::shared_ptr<const Session> session{};  ///< whose scene they are of
   bool unweighted = false;                   ///< each way alone, as if there were no other
-  int places = 5;                            ///< of the longest paths
+  int places = 5;                            ///< places of the longest paths
   std::optional<Way> alone{};                ///< this one only, and larger
   bool operator==(const PyramidPlan&) const = default;
 };
@@ -43,7 +43,7 @@ struct Pyramid {
 /// Renders it, at small size; none of a session whose integrator is not bdpt. Keeps errors as the problem.
 Pyramid wayPyramid(const PyramidPlan& plan, const Cancelled& cancelled = {});
 
-/// The same in the background, for a window that asks in every frame.
+/// Renders them in the background, for a window that asks in every frame.
 class PyramidMaker {
  public:
   /// To be called often. A session that differs from the last only in the ways that it shows has the same

@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "app/difference.h"
 #include "app/output.h"
 #include "app/render_warnings.h"
 #include "app/scene_changes.h"
@@ -185,7 +186,7 @@ void Workspace::takeReread() {
   const std::optional<Reread> reread = rereading_.take();
   if (!reread || !wanted_ || reread->number <= givenUp_) return;
   const bool last = reread->number == wantedNumber_;
-  Document::Change change = reread->change;  // of which a part may be in the document by now
+  Document::Change change = reread->change;  // a change that may partly be in the document by now
   if (change.option == wanted_->option) change.continues = change.continues || wanted_->continues;
   change.anew = change.anew && wanted_->anew;
   if (!reread->reading.value) {
@@ -199,7 +200,7 @@ void Workspace::takeReread() {
     if (last)
       wanted_.reset();
     else {
-      // the drag goes on
+      // the drag continues
       wanted_->continues = wanted_->option == change.option;
       wanted_->anew = false;
     }
@@ -259,7 +260,8 @@ void Workspace::takeCompleted() {
 void Workspace::openReference(const std::string& file) {
   loading_.start([path = absolute(file)](const Cancelled&) {
     return outcomeOf(path, [&] {
-      return Reference{path, readPicture(path), pictureFormatFor(path).keepsBright};
+      LoadedPicture loaded = loadPicture(path);
+      return Reference{path, std::move(loaded.picture), !loaded.levels};
     });
   });
 }
@@ -311,11 +313,10 @@ void Workspace::saveSceneOver() {
   if (saving() || !(toBeRead || document.othersOnDisk())) return saveScene(document.file());
   fail({{.place = {.file = document.file()},
          .what = std::string("not saved: the file was changed by another program") +
-                 (toBeRead ? "" : ", and what it says now could not be read"),
-         .hint = toBeRead
-                     ? "it is read again now; undo brings back what was edited here, which can be saved then"
-                     : "mend it there, and it is read again; or File, Save scene as... writes another "
-                       "file, and replaces this one if you say so"}});
+                 (toBeRead ? "" : ", and its new contents could not be read"),
+         .hint = toBeRead ? "it is read again now; undo restores your edits, which can be saved then"
+                          : "mend it there, and it is read again; or File, Save scene as... writes another "
+                            "file, and replaces this one if you say so"}});
 }
 
 void Workspace::takeSaved() {
@@ -356,7 +357,7 @@ bool Workspace::stale() const {
 }
 
 void Workspace::update() {
-  // What is being written may be the document's own file.
+  // The file that is being written may be the document's own.
   const bool looks = !saving() && !rereading_.pending();
   takeSaved();
   takeOpened();
@@ -403,7 +404,7 @@ void Workspace::reloadIfChanged() {
   if (gone && !gone_)
     log_.push_back({Level::warning,
                     shown(document.file()) + " is no longer on the disk",
-                    "what was read stays; File, Save scene writes it again",
+                    "the scene stays; File, Save scene writes it again",
                     {}});
   gone_ = gone;
   if (!document.changedOnDisk()) return;

@@ -1,5 +1,5 @@
-// What the studio does, without its window: a document, its picture in the making, a picture to compare with,
-// the log, files opened lately. The window calls update() for every frame and draws what it finds here.
+// The state of the studio without its window: a document, its picture in the making, a picture to compare
+// with, the log, files opened lately. The window calls update() for every frame and draws what it finds here.
 //
 // Whatever reads or writes a file returns at once and is done in the background; update() takes what came of
 // it. Errors go to the log. The last file to open, moment of the scene and reference asked for
@@ -56,7 +56,7 @@ class Workspace {
   /// Takes the last change back, also one for which the file is still being read.
   void undo();
   void redo() { document.redo(); }
-  /// What undo() takes back; "" if nothing.
+  /// Name of the edit that undo() takes back; "" if nothing.
   std::string undoName() const { return wanted_ ? wanted_->option : document.undoName(); }
 
   /// A picture file to compare with.
@@ -98,7 +98,7 @@ class Workspace {
     std::uint64_t revision, picture, reference, failures;
     std::size_t log;
     BackgroundRender::Phase phase;
-    int tenths;                     ///< of seconds, that a render takes already
+    int tenths;                     ///< tenths of seconds that a render takes already
     bool reading, saving, tracing;  ///< tracing: the rays of a pixel
     bool operator==(const Pulse&) const = default;
   };
@@ -127,7 +127,7 @@ class Workspace {
  private:
   static constexpr std::size_t kMostRecent = 12;
 
-  /// What a job in the background came to: something, or errors.
+  /// The result of a job in the background: something, or errors.
   template <class Value>
   struct Outcome {
     std::optional<Value> value{};
@@ -135,7 +135,7 @@ class Workspace {
   };
   template <class Work>
   static auto outcomeOf(const std::string& file, Work&& work);
-  /// What came of the job, if that is there and is not an error, which then is reported.
+  /// The result of the job, if that is there and is not an error, which then is reported.
   template <class Value>
   std::optional<Value> taken(BackgroundTask<Outcome<Value>>& task);
 
@@ -164,7 +164,7 @@ class Workspace {
   void openIfMended();
   bool lookNow();  ///< it is time to look at the disk
   void adopt(Document opened);
-  void putFirst(const std::string& file);  ///< of recent()
+  void putFirst(const std::string& file);  ///< makes it the first of recent()
   void want(Document::Change change);
   void giveUpWanted();
   void takeReread();

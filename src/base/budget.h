@@ -38,7 +38,7 @@ class Budget {
   double timeLimit() const { return limit_; }
   double seconds() const;  ///< since the start
   bool timeIsOver() const { return lateOne() != nullptr; }
-  /// What is done is going to be kept: until this is taken back nobody ends the process for being late.
+  /// The finished part is going to be kept: until this is taken back nobody ends the process for being late.
   void letFinish(bool finishes = true) { finishes_ = finishes; }
   bool finishes() const { return finishes_; }
 
@@ -52,7 +52,7 @@ class Budget {
   };
   /// The outermost work that is done now and its start, in seconds(); "" if there is none. From any thread.
   std::pair<Step, double> outermost() const;
-  /// What was being done when the last exception was thrown, as doingNow().
+  /// The task during which the last exception was thrown, as doingNow().
   std::string brokenOff() const;
 
  private:
@@ -67,13 +67,13 @@ class Budget {
   const Clock::time_point start_ = Clock::now();
   std::atomic<double> limit_{0};
   std::atomic<bool> finishes_{false};
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // protects the members below
   const Work* outermost_ = nullptr;
   std::array<Step, kMostSteps> broken_{};  // innermost first; no list, since memory may be what is lacking
   std::size_t brokenCount_ = 0;
 };
 
-/// What a thread works for.
+/// The budget and tasks of a thread.
 struct BudgetOfThread {
   Budget* budget = nullptr;
   const Work* work = nullptr;  ///< the innermost
@@ -134,7 +134,7 @@ class Work {
   const int exceptions_;
 };
 
-/// What this thread does, outermost first, and how far it is: "building the objects (3 of 10), laying out
+/// The tasks of this thread, outermost first, and their progress: "building the objects (3 of 10), laying out
 /// copies"; "" if nobody said.
 std::string doingNow();
 

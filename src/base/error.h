@@ -1,4 +1,4 @@
-// What goes wrong, told to a person: where, what was expected, what was found, what to try.
+// Errors, told to a person: where, what was expected, what was found, what to try.
 //
 // Loading and compiling a scene throw one type, Error, caught in few places (the command, later the
 // studio). Repairs are collected as warnings in a Messages and returned with the result. Nothing below

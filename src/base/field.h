@@ -63,4 +63,17 @@ constexpr void forEachField(Visit&& visit) {
   visitFields(Struct::fields(), visit);
 }
 
+/// Calls visit(field, value) for each field of the struct; those of base/listed.h have the same.
+template <class Struct, class Visit>
+requires requires { Struct::fields(); }
+constexpr void forEachField(const Struct& target, Visit&& visit) {
+  forEachField<Struct>([&](const auto& f) { visit(f, target.*f.member); });
+}
+/// The same, where visit() may change the values.
+template <class Struct, class Visit>
+requires requires { Struct::fields(); }
+constexpr void editEachField(Struct& target, Visit&& visit) {
+  forEachField<Struct>([&](const auto& f) { visit(f, target.*f.member); });
+}
+
 }  // namespace trace

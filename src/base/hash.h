@@ -1,5 +1,5 @@
 // A number for bytes: equal for equal ones, and different, as far as 64 bits can tell, for different ones. No
-// protection against someone who looks for two files of the same number.
+// protection against someone who constructs two files of the same number.
 #pragma once
 
 #include <cstdint>

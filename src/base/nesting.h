@@ -9,7 +9,7 @@ namespace trace {
 inline constexpr int kMostNesting = 140;
 
 /// Solids made of solids, and systems of particles in others; groups within them count too. Each level takes
-/// more of the stack: a ray asks the parts of a solid one within the other.
+/// more of the stack: a ray visits the parts of a solid one within the other.
 inline constexpr int kMostNestedSolids = 64;
 
 }  // namespace trace

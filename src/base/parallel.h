@@ -14,8 +14,8 @@ namespace trace {
 /// How the owner of a running job watches and stops it, from any thread.
 struct Job {
   std::atomic<bool> cancel{false};      ///< set to stop after the chunks now in work
-  std::chrono::seconds patience{5};     ///< for which those may go on then; set before the job begins
-  std::atomic<std::int64_t> done{0};    ///< of the work: chunks finished, or their sizes
+  std::chrono::seconds patience{5};     ///< for which those may continue then; set before the job begins
+  std::atomic<std::int64_t> done{0};    ///< finished work: chunks, or their sizes
   std::atomic<std::int64_t> total{0};   ///< the same of all chunks; 0 until known
   std::atomic<std::int64_t> before{0};  ///< that was done when the job began: done counts it too
   double fraction() const {
@@ -32,7 +32,7 @@ int hardwareThreads();
 
 /// How much work chunks are, where they differ.
 struct ChunkSizes {
-  std::int64_t total = 0;  ///< of all
+  std::int64_t total = 0;  ///< total of all
   std::function<std::int64_t(std::int64_t chunk)> of;
 };
 

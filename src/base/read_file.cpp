@@ -123,7 +123,7 @@ std::string readFile(const std::string& path) {
   const struct stat facts = factsOf(file, path);
   if (S_ISFIFO(facts.st_mode)) return readPipe(file, path);
   if (!S_ISREG(facts.st_mode) || isMadeByTheKernel(file.get()))
-    failToRead(path, "it is no ordinary file", "copy what it says into one");
+    failToRead(path, "it is no ordinary file", "copy its contents into one");
   std::string bytes(static_cast<std::size_t>(facts.st_size), '\0');
   std::size_t read = 0;
   for (;;) {  // also what has grown since

@@ -50,7 +50,7 @@ class ReadScope {
 /// The text as one word of a command line.
 std::string shellWord(const std::string& text);
 
-/// Does not tell whether the file is there.
+/// Does not reveal whether the file exists.
 bool mayRead(const std::string& path);
 
 /// Throws ReadDenied, whose hint names the flag that allows it.

@@ -39,8 +39,8 @@ bool isPartOf(std::string_view a, std::string_view b) {
   return a.empty();
 }
 
-/// What files are full of: up to 15 digits, perhaps with a point among them. They are a whole number and a
-/// power of ten that doubles hold exactly, so that their quotient is rounded once, as it should be.
+/// The usual numbers of files: up to 15 digits, perhaps with a point among them. They are a whole number and
+/// a power of ten that doubles hold exactly, so that their quotient is rounded once, as it should be.
 std::optional<ParsedNumber> parseShort(std::string_view text) {
   static constexpr double kPowers[] = {1,   1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                        1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
@@ -140,7 +140,8 @@ void appendNumber(std::string& text, float number, int digits) {
 std::string nearest(std::string_view word, std::span<const std::string_view> candidates) {
   if (word.size() > 60) return {};
   std::string_view best;
-  // Of words as near as each other it is one with letters left out or too many: no letter was chosen wrong.
+  // Among words that are equally near, one with letters left out or too many is chosen: no letter was chosen
+  // wrong.
   size_t least = 2 * (std::max<size_t>(1, word.size() / 3) + 1);
   for (std::string_view candidate : candidates) {
     const size_t distance = 2 * editDistance(word, candidate) + (isPartOf(word, candidate) ? 0 : 1);

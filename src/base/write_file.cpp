@@ -60,11 +60,11 @@ class Descriptor {
   int number_;
 };
 
-/// What is to be written over, or where a new file goes.
+/// The file to be overwritten, or the place of a new one.
 struct Target {
   std::string name;      ///< as asked for, for messages
   std::string path;      ///< behind all links
-  std::string folder;    ///< of the path
+  std::string folder;    ///< folder of the path
   bool ordinary = true;  ///< false: a device or a pipe, which takes the bytes as they come
   bool exists = false;
   struct stat was {};  ///< if it exists

@@ -1,4 +1,4 @@
-// What the user typed, as data: files, choices of options, and the program's own flags.
+// The command line as data: files, choices of options, and the program's own flags.
 //
 // Words of the command line → parse() → Arguments → a sub-command. The flags that set options come from
 // THE options table (scene/options.h); the others from the table in flags.cpp.
@@ -43,22 +43,22 @@ using Verbs = EnumSet<Verb>;
 
 enum class StatsStyle { none, table, json };
 
-/// Whether a render goes on from the checkpoint beside its picture, and whether it keeps it at the end.
+/// Whether a render continues from the checkpoint beside its picture, and whether it keeps it at the end.
 enum class Resume { goOn, keep, never };
 
-/// What `ray convert` is told.
+/// The flags of `ray convert`.
 struct Conversion {
   std::string camera, material;     ///< the inside of a block of a .ray file; empty to keep the scene's
   std::vector<std::string> lights;  ///< whole nodes of a .ray file; empty to keep the scene's
   int digits = 0;                   ///< 0 for as many as are needed
-  int steps = 0;                    ///< of shapes that become triangles; 0 for the default
+  int steps = 0;                    ///< steps of shapes that become triangles; 0 for the default
   std::string picture;              ///< on what --revolve makes; empty for none
   bool ascii = false, revolve = false;
 };
 
 struct Arguments {
   std::vector<std::string> files;      ///< words that are no flags, in order
-  std::vector<Choice> choices;         ///< of options, in order
+  std::vector<Choice> choices;         ///< choices of options, in order
   std::vector<std::string> allowRead;  ///< --allow-read: folders and files that a scene may read
   std::string output;                  ///< --output; may be empty
   ProgressStyle progress = ProgressStyle::automatic;
@@ -79,12 +79,14 @@ struct Arguments {
   bool inPlace = false;               ///< format: --in-place
   bool markdown = false;              ///< features: as docs/options.md; convert: docs/formats.md
   std::string examples;               ///< features: --examples, the folder of the scenes
+  std::string_view completion;        ///< features: the shell of --completion; may be empty
+  std::string_view manual;            ///< features: the program of --man; may be empty
   /// texture and materials: --size, width and height
   std::optional<std::array<int, 2>> size{};
   std::optional<double> across;  ///< texture: --across, steps of the pattern
   // stereogram
   std::string pattern;           ///< a picture, repeated instead of dots
-  double dotsPerInch = 72;       ///< of the screen
+  double dotsPerInch = 72;       ///< dots per inch of the screen
   double stereoDepth = 1.0 / 3;  ///< StereogramRules::depth
   bool guides = false;
   // diff and grade

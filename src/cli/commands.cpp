@@ -17,6 +17,7 @@
 #include "cli/memory_limit.h"
 #include "cli/overseer.h"
 #include "cli/terminal.h"
+#include "image/picture_name.h"
 
 namespace trace::cli {
 namespace {
@@ -35,7 +36,7 @@ std::string page(const Command* command, bool all) {
 int helpCommand(const Arguments& arguments, const Console&) {
   const std::vector<std::string>& words = arguments.files;
   const Command* command = words.empty() ? nullptr : findCommand(words[0]);
-  const std::size_t place = command ? 1 : 0;  // of the word "all"
+  const std::size_t place = command ? 1 : 0;  // index after the word "all"
   const bool all = words.size() > place && words[place] == "all";
   if (words.size() > place + all) {
     std::vector<std::string_view> known{"all"};
@@ -60,7 +61,7 @@ std::string whyNothing(const Error& error, bool understood) {
       const bool perhapsMore = errors == Messages::kMostErrors;  // where reading ends
       return std::string("the scene has ") + (perhapsMore ? "at least " : "") + counted(errors, "error");
     }
-    case Fault::limit: return "a limit of size, memory or time was met";
+    case Fault::limit: return "a limit of size, memory or time was reached";
   }
   return "it failed";
 }
@@ -70,7 +71,7 @@ int codeOf(const Command& command, const Arguments& arguments, Fault fault) {
   return command.failed ? command.failed(arguments) : static_cast<int>(fault);
 }
 
-/// What scenes may read besides their own folders: what the command line names.
+/// The files that scenes may read besides their own folders: those of the command line.
 std::vector<std::string> allowedFiles(const Arguments& arguments) {
   std::vector<std::string> allowed = arguments.allowRead;
   for (const Choice& choice : arguments.choices)
@@ -158,13 +159,13 @@ int runAlone() {
 
 Error outOfMemory(const std::string& doing, const std::string& file) {
   return {Fault::limit, Place{.file = file}, "out of memory" + (doing.empty() ? "" : " while " + doing),
-          "--max-memory N allows N MiB; without it half of what the machine has is allowed"};
+          "--max-memory N allows N MiB; the default is half of the machine's memory"};
 }
 
 void checkDistinct(const std::string& read, const std::string& written) {
-  if (!written.empty() && sameFile(read, written))
+  if (!written.empty() && sameFile(pictureName(read).file, written))
     throw Error(Fault::usage, "\"" + read + "\" and \"" + written + "\" are the same file",
-                "what is read is not written over; name another file");
+                "inputs are not overwritten; name another file");
 }
 
 std::string_view chosenFormat(const Arguments& arguments, std::string_view command,
@@ -197,7 +198,7 @@ std::span<const Command> commands() {
       Command{Verb::gui, "gui", "[SCENE]",
               "open the studio, a window that renders and shows the rays; ray alone does too", false,
               guiCommand},
-      Command{Verb::info, "info", "SCENE", "what is in a scene, and what a render would make of it", false,
+      Command{Verb::info, "info", "SCENE", "the contents of a scene, and the settings of a render", false,
               infoCommand},
       Command{Verb::bench, "bench", "SCENE",
               "how fast the scene's rays are answered, and how large its hierarchies are", false,
@@ -205,8 +206,8 @@ std::span<const Command> commands() {
       Command{Verb::explain, "explain", "SCENE --pixel X,Y",
               "why a pixel has its colour: every ray, with its numbers", false, explainCommand, nullptr,
               "the answer, or the drawing of --format; by default it is printed"},
-      Command{Verb::lint, "lint", "SCENE", "look for what is likely a mistake in a scene", false, lintCommand,
-              nullptr, "what was found; by default it is printed"},
+      Command{Verb::lint, "lint", "SCENE", "look for likely mistakes in a scene", false, lintCommand, nullptr,
+              "the findings; by default they are printed"},
       Command{Verb::diff, "diff", "A B", "how far two pictures are apart, in numbers and as a picture", false,
               diffCommand, failedDiff, "a picture of the difference"},
       Command{Verb::grade, "grade", "DIR --reference DIR",
@@ -226,16 +227,16 @@ std::span<const Command> commands() {
               "print a scene with its layout tidied, or write it back with --in-place", false, formatCommand,
               nullptr, "the tidied scene; by default it is printed"},
       Command{Verb::expand, "expand", "SCENE [-o OUT]",
-              "print a scene after its loops, functions and included files are worked out", false,
-              expandCommand, nullptr, "the worked-out scene; by default it is printed"},
-      Command{Verb::stereogram, "stereogram", "SCENE -o OUT",
-              "hide what the camera sees in a picture of dots, for two eyes to find", true, stereogramCommand,
-              nullptr, "the picture of dots"},
+              "print a scene with its loops, functions and included files expanded", false, expandCommand,
+              nullptr, "the expanded scene; by default it is printed"},
+      Command{Verb::stereogram, "stereogram", "SCENE -o OUT", "make a random-dot stereogram of the scene",
+              true, stereogramCommand, nullptr, "the picture of dots"},
       Command{Verb::features, "features", "", "extras, picture and scene formats, integrators", false,
-              featuresCommand, nullptr, "a folder for the page and the pictures of --examples"},
+              featuresCommand, nullptr,
+              "the file of what is printed, or a folder for the page and the pictures of --examples"},
       Command{Verb::selftest, "selftest", "",
-              "whether this build finds what is known from formulas; a certificate with -o FILE", false,
-              selftestCommand, nullptr, "a certificate"},
+              "check this build against exact results; a certificate with -o FILE", false, selftestCommand,
+              nullptr, "a certificate"},
       Command{Verb::help, "help", "[COMMAND] [all]", "print help, of one command, or all of it", false,
               helpCommand},
   };

@@ -47,7 +47,7 @@ Error outOfMemory(const std::string& doing, const std::string& file = {});
 /// a scene is made of are known once it is read: checkIsNoInput().
 void checkDistinct(const std::string& read, const std::string& written);
 
-/// What most commands that print facts know.
+/// The context of most commands that print facts.
 inline constexpr std::array<std::string_view, 2> kTextOrJson{"text", "json"};
 /// --format, or the first of those the command knows. Throws Error(Fault::usage) for another.
 std::string_view chosenFormat(const Arguments& arguments, std::string_view command,

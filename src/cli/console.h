@@ -1,4 +1,4 @@
-// What people read on stderr: messages, by their importance, and the last line. Results go to stdout, not
+// Output for people on stderr: messages, by their importance, and the last line. Results go to stdout, not
 // through here.
 #pragma once
 
@@ -34,7 +34,7 @@ class Console {
   void line(LogLevel importance, const std::string& text) const;
   /// The last line of a command, which did what it was asked for (`well`) or did not. Shown at every level.
   void last(bool well, const std::string& text) const;
-  /// The same of text of several lines.
+  /// Writes text of several lines.
   void lines(LogLevel importance, const std::string& text) const;
 
  private:
@@ -48,8 +48,8 @@ class Console {
 /// Thrown when nobody reads the results any more, as in `ray features | head -1`.
 struct ReaderGone {};
 
-/// What a result holds beside letters and line ends: nothing that a terminal obeys, or colours that the
-/// program put there, around names that are printable().
+/// Characters of a result that are neither letters nor line ends: nothing that a terminal obeys, or colours
+/// that the program put there, around names that are printable().
 enum class Paint { none, colors };
 
 /// Writes to stdout. Throws Error(Fault::io) when that fails, as on a full disk, or ReaderGone.

@@ -46,7 +46,7 @@ std::string contentsText(const NamedBytes& written, const Scene& scene) {
   return counted(objects, "object") + (triangles > 0 ? ", " + counted(triangles, "triangle") : "");
 }
 
-/// What is said of files that have the usual name of one that was written, and belong to something else.
+/// The remark on files that have the usual name of one that was written, and belong to something else.
 std::string sparedText(const std::vector<NamedBytes>& files) {
   std::string text;
   for (const NamedBytes& file : files)
@@ -81,7 +81,7 @@ std::string outsideText(const std::vector<NamedBytes>& files, const InputFiles& 
   return flags.empty() ? "" : "; it names files outside its folder, which" + flags + " lets it read";
 }
 
-/// What the words of a flag say, read as a .ray file.
+/// The scene that the words of a flag give, read as a .ray file.
 Scene readWords(const std::string& flag, const std::string& text, const Console& console) {
   Messages messages;
   Scene scene = readScene(flag, "SBT-raytracer 1.0\n" + text, messages);
@@ -132,9 +132,8 @@ Scene sceneToConvert(const std::string& in, const Arguments& arguments, Messages
                          messages);
   SceneAtMoment read = readSceneAtItsMoment(in, bytes, arguments.choices, messages);
   if (read.changesWithTime)
-    messages.warn(Place{.file = in},
-                  "what changes with time is written as it is at " + toText(read.time) + " s",
-                  "--time X chooses another moment");
+    messages.warn(Place{.file = in}, "an animated scene is written as it is at " + toText(read.time) + " s",
+                  "--time X chooses another time");
   return std::move(read.scene);
 }
 
@@ -146,7 +145,7 @@ std::string convert(const std::string& in, const std::string& out, const Argumen
   const SceneFormat& format = writableFormatFor(out);
   if (!conversion.picture.empty() && !conversion.revolve)
     throw Error(
-        Fault::usage, "--picture: expected --revolve, whose surface wears it",
+        Fault::usage, "--picture: expected --revolve, whose surface it is mapped to",
         "--material 'diffuse = map(\"" + conversion.picture + "\")' gives one to the objects of a scene");
   checkDistinct(in, out);
   checkWritable(out);

@@ -21,7 +21,7 @@
 namespace trace::cli {
 namespace {
 
-/// What the command found; each has an exit code in two scales.
+/// The verdicts of the command; each has an exit code in two scales.
 enum class Finding { identical, within, beyond, sizesDiffer, failed };
 
 int exitCode(Finding finding, bool likeIdiff) {
@@ -61,7 +61,7 @@ void warnOfLevels(const PictureDifference& d, const Arguments& arguments, const 
   const std::string& shown = arguments.files[d.reference.levels ? 0 : 1];
   const std::string& light = arguments.files[d.reference.levels ? 1 : 0];
   console.line(LogLevel::warning,
-               "warning: " + printable(shown) + " holds levels of a screen, cut off at 1, and " +
+               "warning: " + printable(shown) + " has levels of a screen, clipped at 1, and " +
                    printable(light) +
                    " light: they differ by tone and transfer curves too; compare two of one kind");
 }
@@ -87,7 +87,7 @@ std::string diffText(const PictureDifference& d, const Arguments& arguments) {
     }
     if (metric.name == "beyond")
       text += " of the values differ by more than " + toText(d.tolerance) + " " + std::string(d.unit());
-    if (metric.name == "pixels") text += " of the pixels have such a value";
+    if (metric.name == "pixels") text += " of pixels differ";
     text += "\n";
   }
   for (const Limit& limit : arguments.limits)
@@ -136,6 +136,10 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
   for (const std::string& file : arguments.files) checkDistinct(file, arguments.output);
   if (!arguments.output.empty()) checkWritable(arguments.output);
   LoadedPicture reference = loadPicture(arguments.files[0]), test = loadPicture(arguments.files[1]);
+  for (const auto& [file, loaded] :
+       {std::pair{&arguments.files[0], &reference}, {&arguments.files[1], &test}})
+    if (!loaded->remark.empty())
+      console.line(LogLevel::warning, "warning: " + printable(*file) + ": " + printable(loaded->remark));
   const Work work("comparing the pictures");
   const PictureDifference d =
       difference(std::move(reference), std::move(test), {arguments.tolerance, arguments.pixelsPerDegree});

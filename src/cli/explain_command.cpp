@@ -103,7 +103,7 @@ int explainCommand(const Arguments& arguments, const Console& console) {
     const std::string shown = bothWays ? "bdpt" : "path";
     console.line(LogLevel::info,
                  "note: chains make this picture, in no order of pixels; shown are paths of --integrator " +
-                     shown + ", to whose mean they tend, and a chain that comes by");
+                     shown + ", whose mean they converge to, and a chain that visits the pixel");
     std::erase_if(choices,
                   [&](const Choice& choice) { return findOption(choice.option).integrators == asked; });
     choices.push_back({"integrator", shown, {}});
@@ -113,7 +113,7 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty()) checkIsNoInput(arguments.output, session.scene().inputs);
   session.build();
   std::optional<ChainWalk> chain;
-  if (byChains) {  // of the whole picture, with the options that were chosen for it
+  if (byChains) {  // chains belong to the whole picture, with the options that were chosen for it
     const auto whole = std::make_shared<Session>();
     whole->open(arguments.files[0], arguments.choices, arguments.strict);
     whole->build();

@@ -5,8 +5,10 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/completion.h"
 #include "cli/flags.h"
 #include "cli/help.h"
+#include "cli/manual.h"
 #include "formats/format.h"
 #include "image/codec.h"
 #include "render/integrator.h"
@@ -43,7 +45,7 @@ std::string featuresText() {
   text += "passes (--passes NAME,NAME)\n";
   for (const PassRow& pass : passRows()) text += featureRow(pass.name, pass.help);
   text += "shading models (material = { model = NAME; ... })\n";
-  forEachType<MaterialModel>([&]<class Model>(Model*) { text += featureRow(Model::kKeyword, Model::kHelp); });
+  for (const ModelType& type : modelTypes()) text += featureRow(type.keyword, type.help);
   text += "materials of the library (material = { library = NAME; })\n";
   for (const Finish& finish : finishes())
     text += featureRow(finish.name, std::string(finish.group) + ", " + std::string(finish.looks));
@@ -78,7 +80,14 @@ int featuresCommand(const Arguments& arguments, const Console& console) {
     writeFile(arguments.output + "/README.md", extensionsMarkdown());
     return kDone;
   }
-  printResult(arguments.markdown ? optionsMarkdown() : featuresText());
+  const std::string text = !arguments.completion.empty() ? completionScript(arguments.completion)
+                           : !arguments.manual.empty()   ? manualPage(arguments.manual)
+                           : arguments.markdown          ? optionsMarkdown()
+                                                         : featuresText();
+  if (arguments.output.empty())
+    printResult(text);
+  else
+    writeFile(arguments.output, text);
   return kDone;
 }
 

@@ -6,6 +6,8 @@
 #include <optional>
 
 #include "base/text.h"
+#include "cli/completion.h"
+#include "cli/manual.h"
 
 namespace trace::cli {
 namespace {
@@ -28,7 +30,7 @@ constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff
     kEverywhere{Verb::render, Verb::gui,    Verb::info,       Verb::bench,    Verb::explain,   Verb::lint,
                 Verb::diff,   Verb::grade,  Verb::convert,    Verb::texture,  Verb::materials, Verb::newScene,
                 Verb::format, Verb::expand, Verb::stereogram, Verb::features, Verb::selftest,  Verb::help};
-constexpr Verbs kTexture{Verb::texture};
+constexpr Verbs kTexture{Verb::texture}, kFeatures{Verb::features};
 
 /// The index of the value in the names. Throws Error(Fault::usage).
 template <size_t N>
@@ -178,7 +180,7 @@ void setOutput(Arguments& arguments, std::string_view value) {
 std::span<const Flag> flags() {
   static constexpr std::array kTable{
       Flag{"output", 'o', Takes::value, "FILE", "", kWithOutput, true,
-           "the file to write; ray COMMAND --help says what it holds", setOutput},
+           "the file to write; ray COMMAND --help describes its contents", setOutput},
       Flag{"frames", 0, Takes::value, "A-B", "", kRender, false,
            "render frames A to B of an animation, or A-B/N every Nth; the picture's name holds #### for the "
            "number; frames that are there already with the same settings are skipped, but for .bmp "
@@ -191,17 +193,15 @@ std::span<const Flag> flags() {
              if (a.framesPerSecond < 1e-6) throw Error(Fault::usage, "--fps: expected a number above 0");
            }},
       Flag{"resume", 0, Takes::optional, "auto|keep|never", "keep", kRender, true,
-           "a render that was stopped goes on from the checkpoint beside its picture (auto); --resume alone, "
-           "or "
+           "a stopped render continues from the checkpoint next to its picture (auto); --resume alone, or "
            "keep, also keeps the checkpoint of a finished picture, to which a larger --spp adds samples; "
-           "never "
-           "begins anew",
+           "never starts from the beginning",
            [](Arguments& a, std::string_view value) {
              constexpr std::array<std::string_view, 3> kNames{"auto", "keep", "never"};
              a.resume = static_cast<Resume>(pick("resume", value, kNames));
            }},
       Flag{"quick", 0, Takes::nothing, "", "", kOfScenes, true,
-           "a look in a moment: 100 pixels wide, the whole picture, depth 2, spp 1; flags beside it override",
+           "a quick preview: 100 pixels wide, the whole picture, depth 2, spp 1; other flags override these",
            [](Arguments& a, std::string_view) { a.quick = true; }},
       Flag{"enable", 0, Takes::value, "NAME", "", kOfScenes, true,
            "switch an extra on, with a useful value (ray features lists them)", enable},
@@ -246,7 +246,7 @@ std::span<const Flag> flags() {
              a.conversion.steps = wholeNumber("steps", value, 3, 100000);
            }},
       Flag{"picture", 0, Takes::value, "FILE", "", kConvert, false,
-           "a picture on what --revolve makes: once around, and once along the profile",
+           "a picture on the surface of --revolve: once around, and once along the profile",
            [](Arguments& a, std::string_view value) { a.conversion.picture = value; }},
       Flag{"size",
            0,
@@ -255,7 +255,7 @@ std::span<const Flag> flags() {
            "",
            {Verb::texture, Verb::materials},
            true,
-           "of the picture; default 256x256, and 960x600 for all materials",
+           "size of the picture; default 256x256, and 960x600 for all materials",
            setSize},
       Flag{"across", 0, Takes::value, "X", "", kTexture, true,
            "how many steps of the pattern the picture is wide; default 4 for a kind, 1 for a texture of a "
@@ -268,7 +268,8 @@ std::span<const Flag> flags() {
            "dots an inch of the screen, for eyes 2.5 inches apart; default 72",
            [](Arguments& a, std::string_view value) { a.dotsPerInch = wholeNumber("dpi", value, 8, 10000); }},
       Flag{"relief", 0, Takes::value, "X", "", kStereogram, true,
-           "how near the nearest comes, of the way from the farthest to the eyes, 0.01 to 0.9; default 0.333",
+           "position of the nearest point, as a fraction of the distance from the farthest to the eyes, 0.01 "
+           "to 0.9; default 0.333",
            [](Arguments& a, std::string_view value) {
              a.stereoDepth = numberOf("relief", value, 0.01);
              if (a.stereoDepth > 0.9)
@@ -302,7 +303,7 @@ std::span<const Flag> flags() {
              withFlag("limit", [&] { a.limits.push_back(parseLimit(value)); });
            }},
       Flag{"show", 0, Takes::value, "heat|absolute|signed|flip", "", kDiff, false,
-           "what the picture of the difference shows; default heat, the largest of a pixel in false colour",
+           "the kind of difference picture; default heat, the largest difference of a pixel in false colour",
            setShow},
       Flag{"magnify", 0, Takes::value, "X", "", kComparing, false,
            "differences are multiplied by this before they are shown; default 8",
@@ -335,8 +336,8 @@ std::span<const Flag> flags() {
            "which of the pixel's camera rays; default 0, the first",
            [](Arguments& a, std::string_view value) { a.sample = value; }},
       Flag{"light-image", 0, Takes::nothing, "", "", kExplain, false,
-           "also find what the light image of bdpt brings the pixel, and by which paths; takes about half as "
-           "long as a render of the picture",
+           "also compute the light image of bdpt in the pixel, and its paths; takes about half as long as a "
+           "render of the picture",
            [](Arguments& a, std::string_view) { a.lightImage = true; }},
       Flag{"format", 0, Takes::value, "text|json|obj|svg|png", "", kAnswering, true,
            "how the answer looks; default text. obj, svg and png are drawings of rays, of ray explain only",
@@ -359,6 +360,14 @@ std::span<const Flag> flags() {
            false,
            "print docs/options.md, or of texture docs/texture-fields.md, or of convert docs/formats.md",
            [](Arguments& a, std::string_view) { a.markdown = true; }},
+      Flag{"completion", 0, Takes::value, "bash|zsh|fish", "", kFeatures, false,
+           "print the completion of that shell for ray and ray-studio (docs/install.md)",
+           [](Arguments& a, std::string_view value) {
+             a.completion = kShells[pick("completion", value, kShells)];
+           }},
+      Flag{"man", 0, Takes::optional, "ray|ray-studio", "ray", kFeatures, false,
+           "print the page of the program for man: ray features --man | man -l -",
+           [](Arguments& a, std::string_view value) { a.manual = kManuals[pick("man", value, kManuals)]; }},
       Flag{
           "examples",
           0,

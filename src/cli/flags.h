@@ -31,11 +31,11 @@ bool takesOptions(Verb command);
 /// Whether that option is a flag of the sub-command: limits of time and memory are of every one that works.
 bool takesOption(Verb command, const Option& option);
 
-/// What --enable gives an option that is not on or off: a value with a visible, useful effect. "" if the
-/// option cannot be enabled.
+/// The value that --enable gives an option that is not on or off: one with a visible, useful effect. "" if
+/// the option cannot be enabled.
 std::string_view enabledValue(const Option& option);
 
-/// What --quick chooses, before the flags that are given by name.
+/// The choices of --quick, before the flags that are given by name.
 std::span<const Choice> quickChoices();
 
 }  // namespace trace::cli

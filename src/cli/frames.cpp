@@ -53,7 +53,7 @@ void checkAllPlaces(const Session& session, const std::string& pattern, const st
       if (std::filesystem::exists(file.path, ignored)) checkIsNoInput(file.path, session.scene().inputs);
 }
 
-/// Where the command stopped, and how to go on: all frames from `stoppedAt` on are still to come.
+/// Where the command stopped, and how to continue: all frames from `stoppedAt` on are still to come.
 std::string howToGoOn(const std::vector<int>& frames, int stoppedAt) {
   const std::string first = std::to_string(stoppedAt);
   std::string rest = first;
@@ -171,7 +171,7 @@ int renderFrames(const Arguments& given, const std::string& pattern, const Conso
       break;
     }
     const SavedPicture saved = save(session, result, arguments, signals, files, progress, console);
-    if (result.end != End::finished) {  // of the steps behind the last ray
+    if (result.end != End::finished) {  // a stop in the steps behind the last ray
       code = exitCode(result);
       stopped = whyStopped(result);
       break;

@@ -160,7 +160,7 @@ int gradeCommand(const Arguments& arguments, const Console& console) {
   if (!arguments.output.empty()) checkWritable(arguments.output);
   StopKey stop(console);
   const Grades grades = trace::grade(task);
-  const BudgetScope late(nullptr);  // what was compared is told, whatever the time
+  const BudgetScope late(nullptr);  // results are reported, whatever the time
   if (!arguments.output.empty()) writeFile(arguments.output, gradePage(task, grades));
   printResult(asJson ? gradesJson(arguments, grades) : gradesText(grades));
   const std::string pairs = counted(grades.pairs.size(), "pair");

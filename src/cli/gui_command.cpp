@@ -16,8 +16,8 @@ Error noStudio() {
   return {Fault::io,
           "the studio, the window of Trace, was not built: there is no ray-studio in \"" + ownFolder() + "\"",
           "./dev studio, in the source of Trace, installs what it needs (libimgui-dev libglfw3-dev "
-          "libgl-dev) and "
-          "builds it; ray SCENE renders without a window"};
+          "libgl-dev) and builds it; beside the Debian package trace-ray install trace-ray-studio; ray SCENE "
+          "renders without a window"};
 }
 
 int guiCommand(const Arguments& arguments, const Console&) {

@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 #include "cli/flags.h"
+#include "cli/help_parts.h"
 #include "cli/terminal.h"
 #include "scene/conventions.h"
 
@@ -52,7 +53,8 @@ std::string joined(std::span<const std::string_view> words, std::string_view bet
   return text;
 }
 
-/// What stands behind the flag.
+}  // namespace
+
 std::string placeholder(const Option& option) {
   switch (option.kind) {
     case Option::Kind::boolean: return "[on|off]";
@@ -99,7 +101,6 @@ std::string defaultOf(const Option& option) {
   return option.kind == Option::Kind::region && value == "0,0,0,0" ? "the whole picture" : value;
 }
 
-/// The short flags that stand for a value of the option: "-b is bvh, -B is none".
 std::string shortValues(const Option& option) {
   std::string text;
   for (const ShortFlag& flag : shortFlags())
@@ -107,6 +108,8 @@ std::string shortValues(const Option& option) {
       text += (text.empty() ? "-" : ", -") + std::string(1, flag.letter) + " is " + std::string(flag.value);
   return text;
 }
+
+namespace {
 
 std::string optionEntry(const Option& option, bool all) {
   std::string right(option.help);
@@ -122,6 +125,8 @@ std::string optionEntry(const Option& option, bool all) {
   return entry(flagsOf(option) + " " + placeholder(option), right);
 }
 
+}  // namespace
+
 std::string flagsOf(const Flag& flag) {
   std::string text = "--" + std::string(flag.name);
   if (flag.letter) text = "-" + std::string(1, flag.letter) + ", " + text;
@@ -135,12 +140,14 @@ std::string flagsOf(const Flag& flag) {
   return text;
 }
 
-std::vector<std::string_view> groups() {
+std::vector<std::string_view> optionGroups() {
   std::vector<std::string_view> names;
   for (const Option& option : options())
     if (std::find(names.begin(), names.end(), option.group) == names.end()) names.push_back(option.group);
   return names;
 }
+
+namespace {
 
 std::string conventionsText() {
   std::string text = "\nConventions that --like names\n";
@@ -149,16 +156,14 @@ std::string conventionsText() {
 }
 
 constexpr std::string_view kExitCodes =
-    "0 done, 1 a file could not be read or written, 2 wrong usage, 3 the scene has errors, 4 stopped by the "
-    "user "
-    "(the finished part is written), 5 a limit was met (time: the finished part is written), 130 stopped at "
-    "once. ray diff: 0 equal within the limits, 1 different, 2 an error, or sizes that differ. ray grade: 6 "
-    "not every "
-    "picture is within the limits. ray lint: 6 it found something";
+    "0 done; 1 a file could not be read or written; 2 wrong usage; 3 the scene has errors; 4 stopped by the "
+    "user (the finished part is written); 5 a limit was reached (time: the finished part is written); 130 "
+    "stopped at once. ray diff: 0 equal within the limits, 1 different, 2 an error, or sizes that differ. "
+    "ray grade: 6 not every picture is within the limits. ray lint: 6 it found something";
 constexpr std::string_view kSignals =
-    "Ctrl-C or SIGTERM: finish the tiles in work, but for those that take over 5 s, write, end; before the "
-    "first tile there is nothing to write; twice: end at once. SIGUSR1 or SIGHUP: write what is finished and "
-    "go on";
+    "Ctrl-C or SIGTERM: finish the current tiles, except those that take over 5 s, write, end; before the "
+    "first tile there is nothing to write; twice: end at once. SIGUSR1 or SIGHUP: write the finished part "
+    "and continue";
 
 /// A table's cell: | would end it.
 std::string cell(std::string_view text) {
@@ -178,7 +183,7 @@ std::string optionsText(bool all) {
       if (isCommon(option.name)) text += optionEntry(option, false);
     return text;
   }
-  for (std::string_view group : groups()) {
+  for (std::string_view group : optionGroups()) {
     text += "\n" + std::string(group) + "\n";
     for (const Option& option : options())
       if (option.group == group) text += optionEntry(option, true);
@@ -186,13 +191,16 @@ std::string optionsText(bool all) {
   return text + conventionsText();
 }
 
+}  // namespace
+
 std::string usageOf(const Command& command) {
   const bool first = &command == &commands().front();
   return "ray " + (first ? "[render]" : std::string(command.name)) +
          (command.arguments.empty() ? "" : " " + std::string(command.arguments));
 }
 
-}  // namespace
+std::string_view exitCodes() { return kExitCodes; }
+std::string_view signalsText() { return kSignals; }
 
 std::string helpText(bool all) {
   std::string text = "Trace " TRACE_VERSION ", the ray tracer you can see inside\n\n";
@@ -244,11 +252,11 @@ std::string optionsMarkdown() {
       "Made by `ray features --markdown` from the tables in src/scene/options.cpp and src/cli/flags.cpp; do "
       "not edit.\n\n"
       "Every option is a flag of `ray render` and `ray info`, and a keyword of `settings { }` in a scene "
-      "file. A default\n"
-      "is overridden by the scene file, and that by the command line. Options that are on or off take "
+      "file. The\n"
+      "scene file overrides a default, and the command line overrides the scene file. Switches take "
       "`--flag`,\n"
       "`--flag on`, `--flag off` and `--no-flag`.\n";
-  for (std::string_view group : groups()) {
+  for (std::string_view group : optionGroups()) {
     text += "\n## " + std::string(group) +
             "\n\n| flag | values | default | what it does | source |\n|---|---|---|---|---|\n";
     for (const Option& option : options()) {
@@ -262,7 +270,7 @@ std::string optionsMarkdown() {
               cell(defaultOf(option)) + " | " + cell(what) + " | " + cell(option.source) + " |\n";
     }
   }
-  text += "\n## The program\n\n| flag | of | what it does |\n|---|---|---|\n";
+  text += "\n## The program\n\n| flag | command | what it does |\n|---|---|---|\n";
   for (const Flag& flag : flags())
     text += "| " + code(flagsOf(flag)) + " | " + namesOf(flag.commands) + " | " + cell(flag.help) + " |\n";
   text += "\nExit codes: " + std::string(kExitCodes) + ".\n\nSignals: " + std::string(kSignals) + ".\n";

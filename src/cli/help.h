@@ -12,7 +12,7 @@ struct Command;
 /// The page of one sub-command: what it does and its flags.
 std::string helpText(const Command& command, bool all);
 
-/// What to say to someone who typed `ray` alone and nothing more: a few lines.
+/// A few lines for someone who typed `ray` alone and nothing more.
 std::string briefHelp();
 
 /// Every option as name=value, a line each.

@@ -18,11 +18,11 @@ std::string lintText(const std::string& scene, std::span<const LintFinding> find
   std::string text;
   for (const LintFinding& finding : findings) {
     std::string message = toString(finding.message);
-    const std::size_t end = message.find('\n');  // of the first line
+    const std::size_t end = message.find('\n');  // end of the first line
     text += message.insert(end, " [" + std::string(finding.check) + "]");
   }
   return text + printable(scene) + ": " +
-         (findings.empty() ? "nothing to complain about" : counted(findings.size(), "finding")) + "\n";
+         (findings.empty() ? "no problems found" : counted(findings.size(), "finding")) + "\n";
 }
 
 std::string lintJson(const std::string& scene, std::span<const LintFinding> findings) {

@@ -9,8 +9,8 @@
 int main(int argc, char** argv) {
   trace::guardStreams();
 #if defined(__GLIBC__)
-  // What reading has freed serves to build, and so on: memory that is given back and asked for anew costs a
-  // page fault every 4 KiB.
+  // Memory that reading has freed serves to build, and so on: memory that is given back and asked for anew
+  // costs a page fault every 4 KiB.
   mallopt(M_MMAP_THRESHOLD, 32 << 20);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
 #endif

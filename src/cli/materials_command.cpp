@@ -29,7 +29,7 @@ struct Entry {
   std::string name, group, looks;
 };
 
-/// What light does not pass first, by group, then the substances that it does.
+/// Opaque materials first, by group, then the transparent substances.
 std::vector<Entry> entries() {
   std::vector<Entry> all;
   for (const Finish& finish : finishes())

@@ -18,7 +18,7 @@ namespace trace::cli {
 namespace {
 
 #if defined(__linux__)
-/// What the limit counts of this process now; 0 if the system does not tell.
+/// The memory of this process that counts for the limit; 0 if the system does not say.
 std::uint64_t dataInUse() {
   std::ifstream file("/proc/self/statm");
   std::uint64_t size = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;
@@ -48,7 +48,7 @@ void say(const char* text) {
   } catch (...) {
   }
   say(lacksMemory ? "error: out of memory\nnothing written: out of memory\n"
-                  : "error: Trace failed in a way that nobody foresaw: please report this\n");
+                  : "error: Trace failed in an unexpected way: please report this\n");
   if (lacksMemory) ::_exit(static_cast<int>(Fault::limit));
   std::abort();
 }

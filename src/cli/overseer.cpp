@@ -57,7 +57,7 @@ void Overseer::endIfLate() const {
   const std::string doing = budget_.outermost().first.doing;
   const std::string text =
       "error: the time limit of " + toText(limit) + " s is over" + (doing.empty() ? "" : " while " + doing) +
-      "\n" + (lateEnd_.writes ? "nothing written: a limit of size, memory or time was met\n" : "");
+      "\n" + (lateEnd_.writes ? "nothing written: a limit of size, memory or time was reached\n" : "");
   if (::write(STDERR_FILENO, text.data(), text.size()) < 0) ::_exit(lateEnd_.code);
   ::_exit(lateEnd_.code);
 }

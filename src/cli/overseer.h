@@ -19,7 +19,7 @@ class Overseer {
  public:
   /// How the process ends if it has to be ended.
   struct LateEnd {
-    int code;     ///< of the exit
+    int code;     ///< exit code
     bool writes;  ///< says that nothing was written
   };
 
@@ -37,8 +37,8 @@ class Overseer {
   const bool shows_, draws_;
   const LateEnd lateEnd_;
   double lastPrint_ = 0;  // seconds of the budget
-  double since_ = 0;      // of the work that estimate_ is of
-  double share_ = 0;      // of that work
+  double since_ = 0;      // start of the task that estimate_ belongs to
+  double share_ = 0;      // finished share of that task
   RemainingTime estimate_;
   std::mutex mutex_;
   std::condition_variable ends_;

@@ -28,13 +28,13 @@ void goOnFrom(Checkpoint& checkpoint, Session& session, const Arguments& argumen
         static_cast<double>(film.samplesDone()) / static_cast<double>(film.tiles() * film.waves().back().end);
     progress.beginsAfter((static_cast<double>(part.before) + film.shareDone()) /
                          static_cast<double>(part.all));
-    console.line(LogLevel::info, "going on from " + checkpoint.path() + ", " +
+    console.line(LogLevel::info, "continuing from " + checkpoint.path() + ", " +
                                      std::to_string(static_cast<int>(100 * share)) + " % done");
     return;
   }
   if (!checkpoint.whyNot().empty())
     console.line(LogLevel::info,
-                 "note: the render begins anew; " + checkpoint.whyNot() +
+                 "note: the render starts from the beginning; " + checkpoint.whyNot() +
                      (!checkpoint.damaged()              ? ""
                       : arguments.resume == Resume::keep ? "; it is left there"
                                                          : "; it is removed when the picture is finished"));
@@ -109,8 +109,8 @@ std::string settleCheckpoint(const Session& session, const RenderResult& result,
   if (result.end != End::finished) {
     const bool never = arguments.resume == Resume::never;
     if (!checkpoint.exists()) return "";
-    return never ? "; without --resume=never the same command goes on from there"
-                 : "; the same command goes on from there";
+    return never ? "; without --resume=never the same command continues from there"
+                 : "; the same command continues from there";
   }
   if (arguments.resume != Resume::keep) checkpoint.remove(session.film());
   return "";
@@ -279,7 +279,7 @@ std::string lostText(const SavedPicture& saved) {
 std::string whereText(const SavedPicture& saved, const std::string& wanted) {
   if (!saved.elsewhere) return saved.path == wanted ? "" : "; " + keptText(wanted);
   if (saved.inPlace.empty()) return " instead of " + wanted;
-  return ", since not all files could be written in their place; " + thereText(saved.inPlace);
+  return ", because not all files could be written in their place; " + thereText(saved.inPlace);
 }
 
 std::string removedText(const PictureFiles& files) {

@@ -28,7 +28,7 @@ RenderResult renderPictureWatched(Session& session, const Arguments& arguments, 
                                   const Part& part);
 
 /// After the picture has been written: takes the checkpoint of a whole one away, unless it is to be kept.
-/// Returns how to go on from that of a part, as the end of a line; "" where there is none.
+/// Returns how to continue from that of a part, as the end of a line; "" where there is none.
 std::string settleCheckpoint(const Session& session, const RenderResult& result, const Arguments& arguments,
                              const PictureFiles& files);
 
@@ -62,7 +62,7 @@ std::string whereText(const SavedPicture& saved, const std::string& wanted);
 /// "; removed out.partial.png", of the fragments that the whole picture took away; "" for none.
 std::string removedText(const PictureFiles& files);
 
-/// What --stats asked for, if it did. False, after a message, if stdout does not take it.
+/// Prints the statistics of --stats, if it was given. False, after a message, if stdout does not take it.
 bool reportStatistics(const Arguments& arguments, Session& session, const RenderResult& result,
                       const std::string& written, double seconds, const Console& console);
 

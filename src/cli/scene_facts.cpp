@@ -10,7 +10,7 @@
 namespace trace::cli {
 namespace {
 
-/// Tells who gave the option its value, by the rules of settingsFor().
+/// The source of the option's value, as settingsFor() decides.
 std::string chooser(const Option& option, const Scene& scene, std::span<const Choice> commandLine) {
   std::string from = chooserOf(option, {scene.choices, commandLine});
   const auto typed = [&](std::string_view name) {

@@ -1,4 +1,4 @@
-// What can be said about a scene without rendering it: counts, and who chose which option.
+// Facts about a scene that need no render: counts, and who chose which option.
 #pragma once
 
 #include <cstddef>
@@ -31,8 +31,8 @@ std::vector<OptionFact> optionsOf(std::string_view group, const Scene& scene, co
 std::vector<OptionFact> changedOptions(const Scene& scene, const Settings& settings,
                                        std::span<const Choice> commandLine);
 
-/// What Trace chose where the file and the command line left it open: "Trace chose a sky and a sun, exposure
-/// 0.8 stops; quality good: path, ..."; "" where it chose nothing.
+/// The choices of Trace where the file and the command line left it open: "Trace chose a sky and a sun,
+/// exposure 0.8 stops; quality good: path, ..."; "" where it chose nothing.
 std::string chosenText(const Scene& scene, const Settings& settings, Real measuredExposure);
 
 }  // namespace trace::cli

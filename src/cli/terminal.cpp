@@ -20,7 +20,7 @@
 namespace trace::cli {
 namespace {
 
-// What a signal handler may touch: lock-free atomics and write().
+// The state that a signal handler may touch: lock-free atomics and write().
 std::atomic<int> gPipe[2]{-1, -1};
 std::atomic<int> gStops{0};
 enum class Phase { starting, preparing, rendering, finishing };
@@ -92,7 +92,7 @@ void becomeProgram(const std::vector<std::string>& words) {
 }
 
 int columns() {
-  constexpr long kMost = 500;  // of a line that anyone can see
+  constexpr long kMost = 500;  // longest line that anyone can see
   if (const char* given = std::getenv("COLUMNS"))
     if (const long n = std::strtol(given, nullptr, 10); n > 0) return static_cast<int>(std::min(n, kMost));
   winsize size{};

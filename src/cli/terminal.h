@@ -11,7 +11,7 @@ namespace trace::cli {
 bool canRedraw();
 /// ... and colours are welcome (https://no-color.org).
 bool canColor();
-/// The same of stdout, for results.
+/// Whether stdout is a terminal, for results.
 bool canColorResult();
 /// The width of the terminal, by COLUMNS or by asking it; 80 when neither tells.
 int columns();

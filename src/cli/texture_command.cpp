@@ -22,12 +22,6 @@
 namespace trace::cli {
 namespace {
 
-/// Calls visit(Model{}) for each kind.
-template <class Visit>
-void forEachKind(Visit&& visit) {
-  forEachType<TextureModel>([&](auto* type) { visit(std::remove_pointer_t<decltype(type)>{}); });
-}
-
 std::string padded(std::string text, std::size_t width) {
   text.resize(std::max(text.size() + 2, width), ' ');
   return text;
@@ -36,65 +30,52 @@ std::string padded(std::string text, std::size_t width) {
 std::string kindsText() {
   std::string text =
       "textures: ray texture NAME lists the fields of one, with -o OUT it is written as a picture\n";
-  forEachKind([&](const auto& model) {
-    text += padded("  " + std::string(model.kKeyword), 14) + std::string(model.kHelp) + "\n";
-  });
+  for (const TextureType& type : textureTypes())
+    text += padded("  " + std::string(type.keyword), 14) + std::string(type.help) + "\n";
   return text;
 }
 
-/// Calls visit(keyword, default, help) for the fields of a texture and of its placement.
-template <class Model, class Visit>
-void forEachRow(const Model& model, Visit&& visit) {
-  const auto rows = [&](const auto& from) {
-    forEachField<std::remove_cvref_t<decltype(from)>>([&](const auto& f) {
-      const std::string value = rayfile::written(from.*f.member, 6);
-      visit(std::string(f.keyword), value.empty() ? "\"\"" : value, std::string(f.help));
-    });
+std::string fieldsText(const TextureType& type) {
+  std::string text = std::string(type.keyword) + ": " + std::string(type.help) + "\n";
+  const auto row = [&](const auto& f, const auto& standard) {
+    const std::string value = rayfile::written(standard, 6);
+    text += padded("  " + std::string(f.keyword), 16) + padded(value.empty() ? "\"\"" : value, 24) +
+            std::string(f.help) + "\n";
   };
-  rows(model);
-  rows(TexturePlacement{});
-}
-
-std::string fieldsText(const Texture& texture) {
-  return match(texture->model, [](const auto& model) {
-    std::string text = std::string(model.kKeyword) + ": " + std::string(model.kHelp) + "\n";
-    forEachRow(std::remove_cvref_t<decltype(model)>{},
-               [&](const auto& keyword, const auto& value, const auto& help) {
-                 text += padded("  " + keyword, 16) + padded(value, 24) + help + "\n";
-               });
-    return text;
-  });
+  forEachField(TextureModel(type), row);
+  forEachField(TexturePlacement{}, row);
+  return text;
 }
 
 /// The file docs/texture-fields.md.
 std::string fieldsMarkdown() {
   std::string text =
-      "# Fields of textures\n\nMade by `ray texture --markdown`. [textures.md](textures.md) tells how "
-      "textures are used. "
-      "All have `name`, `scale`, `rotate` and\n`translate` too. Where a colour or a number stands, another "
-      "texture may.\n";
-  forEachKind([&](const auto& model) {
-    text += "\n## " + std::string(model.kKeyword) + "\n\n" + std::string(model.kHelp) +
+      "# Fields of textures\n\nMade by `ray texture --markdown`. [textures.md](textures.md) describes how to "
+      "use textures. All have `name`, `scale`, `rotate` and\n`translate` too. Another texture may replace "
+      "any colour or number.\n";
+  for (const TextureType& type : textureTypes()) {
+    text += "\n## " + std::string(type.keyword) + "\n\n" + std::string(type.help) +
             ".\n\n| field | default | what |\n|---|---|---|\n";
-    forEachField<std::remove_cvref_t<decltype(model)>>([&](const auto& f) {
-      text += "| `" + std::string(f.keyword) + "` | " + rayfile::written(model.*f.member, 6) + " | " +
+    forEachField(TextureModel(type), [&](const TextureField& f, const auto& value) {
+      text += "| `" + std::string(f.keyword) + "` | " + rayfile::written(value, 6) + " | " +
               std::string(f.help) + " |\n";
     });
-  });
+  }
   return text;
 }
 
 /// One of that kind, in u and v if it can lie there.
 Texture ofKind(const std::string& keyword) {
-  std::optional<Texture> found;
+  if (const TextureType* type = findTextureType(keyword)) {
+    TextureModel model(*type);
+    editEachField(model, [](const TextureField& f, auto& value) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, EnumValue>)
+        if (f.keyword == "space") value.set(static_cast<std::size_t>(TextureSpace::uv));
+    });
+    return TextureNode{.model = std::move(model)};
+  }
   std::vector<std::string_view> kinds;
-  forEachKind([&](auto model) {
-    kinds.push_back(model.kKeyword);
-    if (model.kKeyword != keyword) return;
-    if constexpr (requires { model.space; }) model.space = TextureSpace::uv;
-    found = TextureNode{.model = std::move(model)};
-  });
-  if (found) return *found;
+  for (const TextureType& type : textureTypes()) kinds.push_back(type.keyword);
   std::string all;
   for (const std::string_view kind : kinds) all += (all.empty() ? "" : ", ") + std::string(kind);
   std::string hint = didYouMean(keyword, kinds);
@@ -164,7 +145,7 @@ int textureCommand(const Arguments& arguments, const Console& console) {
   const Texture texture =
       inScene ? ofScene(named.substr(0, colon), named.substr(colon + 1), console) : ofKind(named);
   if (arguments.output.empty()) {
-    printResult(fieldsText(texture));
+    printResult(fieldsText(texture->model.type()));
     return kDone;
   }
   const Picture picture = pictureOf(texture, width, height, arguments.across.value_or(inScene ? 1 : 4));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kLookForChanges = 100;  // milliseconds
 
-/// Thrown in the midst of a picture that is written while the render goes on.
+/// Thrown in the midst of a picture that is written while the render continues.
 struct SaveEnded {};
 
 }  // namespace
@@ -57,7 +57,7 @@ bool saveCheckpoint(Checkpoint& checkpoint, const Film& film, Progress& progress
   }
   progress.clear();
   console.line(LogLevel::warning,
-               "warning: no checkpoint: " + why + "; what is done is lost if the machine fails");
+               "warning: no checkpoint: " + why + "; the finished part is lost if the machine fails");
   return false;
 }
 

@@ -18,7 +18,7 @@ namespace trace::cli {
 
 /// Which part of the work the render is: of an animation, one of several frames.
 struct Part {
-  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();  ///< of the whole work
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();  ///< start of the work
   std::int64_t before = 0, all = 1;  ///< renders done before, and in all
 };
 
@@ -28,7 +28,7 @@ struct CheckpointPlan {
   double every = 0;                  ///< seconds
 };
 
-/// What `auto` means here and now, drawn on stderr.
+/// The meaning of `auto` here and now, drawn on stderr.
 Progress makeProgress(ProgressStyle style, const Console& console);
 
 /// False, after a warning, if it cannot be written.
@@ -65,7 +65,7 @@ class Watch {
   std::thread thread_;
 };
 
-/// What is said of a file that a fragment would have replaced.
+/// The remark on a file that a partial picture would have replaced.
 std::string keptText(const std::string& path);
 
 /// "400x300" or, of a part, "400x300, 37 % done" or "400x300, about 5 of 16 samples a pixel, 37 % done".

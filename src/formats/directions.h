@@ -1,4 +1,4 @@
-// What a reader checks in the directions of a camera before it makes one.
+// Checks of the directions of a camera before a reader makes one.
 #pragma once
 
 #include <cmath>

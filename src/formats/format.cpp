@@ -51,7 +51,7 @@ constexpr std::array kFormats{
                 .write = writeComposer},
     SceneFormat{.name = "inventor",
                 .suffixes = kInventor,
-                .help = "Open Inventor 2.x, VRML 1.0 and VRML97, all as text",
+                .help = "Open Inventor 2.x, text and binary, VRML 1.0 and VRML97",
                 .recognises = recognisesInventor,
                 .read = readInventor,
                 .write = writeInventor},
@@ -92,7 +92,7 @@ constexpr std::array kFormats{
                 .readModelAt = readGltf},
 };
 
-/// What bytes that are no scene look like.
+/// The appearance of bytes that are no scene.
 std::string kindOf(std::string_view bytes) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kBeginnings{{
       {"\x89PNG", "a PNG picture"},
@@ -107,6 +107,7 @@ std::string kindOf(std::string_view bytes) {
        "ELF",
        "a program"},
   }};
+  if (bytes.starts_with("RIFF") && bytes.substr(0, 12).ends_with("WEBP")) return "a WebP picture";
   for (const auto& [beginning, kind] : kBeginnings)
     if (bytes.starts_with(beginning)) return std::string(kind);
   if (bytes.find('\0') < 4096) return "binary data";
@@ -203,20 +204,20 @@ void forEachQuoted(std::string_view text, Use&& use) {
   }
 }
 
-/// What this thread does, and what inside of it an exception broke off.
+/// The task of this thread, and the one inside of it that an exception broke off.
 std::string workBrokenOff() {
   const std::string outer = doingNow();
   const std::string inner = budgetOfThread.budget ? budgetOfThread.budget->brokenOff() : "";
   return outer + (outer.empty() || inner.empty() ? "" : ", ") + inner;
 }
 
-/// What read() returns; lack of memory becomes an Error that names the file and its size.
+/// The result of read(); lack of memory becomes an Error that names the file and its size.
 template <class Read>
 auto withinMemory(const std::string& file, std::string_view bytes, Read&& read) {
   try {
     return read();
   } catch (const std::bad_alloc&) {
-  } catch (const std::length_error&) {  // of a vector or string
+  } catch (const std::length_error&) {  // thrown by a vector or string
   }
   const std::string doing = workBrokenOff();
   throw Error(Fault::limit, Place{.file = file},
@@ -239,7 +240,7 @@ Box3 boundsOverTime(const SceneFormat& row, const std::string& file, std::string
   constexpr int kMoments = 5;
   Box3 all;
   for (int i = 0; i < kMoments; ++i) {
-    Messages told;  // of the model before
+    Messages told;  // messages of the model before
     SceneTime moment(keys.first + (keys.second - keys.first) * i / (kMoments - 1));
     all.extend(bounds(sceneOf(modelBy(row, file, text, told, moment), file, row.name)));
   }

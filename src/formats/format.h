@@ -29,9 +29,9 @@ struct NamedBytes {
 };
 
 struct WriteOptions {
-  int digits = 0;      ///< of numbers in text that count; 0 for as many as are needed to read the same back
+  int digits = 0;      ///< significant digits of numbers in text; 0: as many as read back the same
   bool ascii = false;  ///< text, where a format has both
-  int steps = 0;       ///< of shapes that become triangles; 0 for 64, or fewer where these would take minutes
+  int steps = 0;       ///< steps of shapes that become triangles; 0: 64, or fewer for slow ones
 };
 
 /// A file that was read, and the scene that it says.

@@ -97,9 +97,7 @@ class IesReader {
       const std::size_t pairs = count("the number of pairs of angles and factors");
       for (std::size_t i = 0; i < 2 * pairs; ++i) words_.number("an angle or a factor of the tilt");
     }
-    warn(
-        "TILT: what a lamp loses when the luminaire is tilted is not counted: it shines as if it hung "
-        "straight");
+    warn("TILT: the loss of a tilted lamp is not applied: it shines as if it hung straight");
   }
 
   /// At the word read last.

@@ -22,7 +22,7 @@ constexpr Real kPlainFov = 40, kPlainAspect = 4.0 / 3;
 struct KindChoice {
   std::string_view option, value;
 };
-/// Light is worked out as nature has it, and shown as a screen and an eye expect it.
+/// Light is computed as nature has it, and shown as a screen and an eye expect it.
 constexpr std::array kKindChoices{KindChoice{"width", "640"},
                                   KindChoice{"quality", "good"},
                                   KindChoice{"pixel-position", "center"},
@@ -41,7 +41,7 @@ bool isGiven(const Scene& scene, std::string_view option) {
                      [&](const Choice& choice) { return choice.option == option; });
 }
 
-/// The sky by day of a friendly afternoon: colours from straight down to straight up.
+/// The daylight sky of a friendly afternoon: colours from straight down to straight up.
 Background sky() {
   Background background;
   background.gradient = {{0.3, 0.27, 0.24}, {0.42, 0.4, 0.37}, {0.75, 0.85, 0.95}, {0.2, 0.42, 0.85}};
@@ -49,7 +49,7 @@ Background sky() {
   return background;
 }
 
-/// Over the left shoulder of who looks, large enough in the sky for soft shadows.
+/// Over the left shoulder of the viewer, large enough in the sky for soft shadows.
 LightSource sun(const Camera& camera, Real size) {
   const CameraFrame axes = frame(camera, CameraAxes::orthonormal);
   Vec3 along = normalize(axes.look);

@@ -53,13 +53,13 @@ Every field of another program's format is one of four:
 * **shown**: the picture depends on it.
 * **reported**: it is left out, with one warning. The warning counts all of its kind, and names the line of one in most text formats.
 * **refused**: a file that needs it is not read, and the error says so. A refused texture becomes a checker, with a warning.
-* **not needed**: it says nothing about a still picture. Nothing is reported.
+* **not needed**: it does not affect a still picture. Nothing is reported.
 
-Words, nodes and properties that no table has are reported as not known. Parts of pictures and fields of VRML's groups that no
-table has are passed over.
+Words, nodes and properties without a table entry are reported as unknown. Parts of pictures and fields of VRML's groups without an
+entry are skipped.
 
-Trace knows a file by its content. Where that leaves it open, as for an OFF file without its first word, the suffix
-decides. A file that is written has the format of its suffix. `ray info FILE` says what was found in a file.
+Trace recognises a file by its content. If the content is ambiguous, as for an OFF file without its first word, the suffix
+decides. An output file has the format of its suffix. `ray info FILE` reports the contents of a file.
 
 )";
 
@@ -73,7 +73,7 @@ They may begin with a byte order mark, be UTF-16 or UTF-32, be compressed with g
 word may be in capitals. Lines may end in a carriage return alone. The file may end in the DOS end of file (0x1A) or zeros. Lines and
 columns of messages are those that an editor shows.
 
-Names of other files are looked up as they are written, and then as other systems write them: in quotation marks, with
+Names of other files are looked up as written, and then as other systems write them: in quotation marks, with
 backslashes, with `%20` for a blank, with the folder of another machine. A file whose name differs in the case of its letters is
 taken with a warning. Only files below the scene's folder may be read ([security.md](security.md)).
 )";
@@ -122,11 +122,12 @@ std::span<const KnownFormat> knownFormats() {
                   "profile of another kind is reported.",
                   knownPngFields()},
       KnownFormat{"JPEG", "JPEG", "Grey, colour and CMYK of 8 bits.", knownJpegFields()},
-      KnownFormat{"BMP", "BMP", "All heads of Windows and OS/2.", knownBmpFields()},
+      KnownFormat{"BMP", "BMP", "All headers of Windows and OS/2.", knownBmpFields()},
       KnownFormat{"TGA", "TGA", "Version 1 and 2.", knownTgaFields()},
       KnownFormat{"HDR", "Radiance HDR", "Brightness and colours are those that were measured.",
                   knownHdrFields()},
       KnownFormat{"EXR", "OpenEXR", "All compressions that OpenEXR reads.", knownExrFields()},
+      KnownFormat{"WebP", "WebP", "Read, not written.", knownWebpFields()},
   };
   return kAll;
 }

@@ -54,6 +54,7 @@ std::span<const KnownField> knownBmpFields();
 std::span<const KnownField> knownTgaFields();
 std::span<const KnownField> knownHdrFields();
 std::span<const KnownField> knownExrFields();
+std::span<const KnownField> knownWebpFields();
 
 /// The file docs/formats.md.
 std::string formatsMarkdown();

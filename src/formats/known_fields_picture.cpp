@@ -1,6 +1,6 @@
 // How Trace treats the fields of pictures. Sources: PNG (ISO/IEC 15948); JFIF 1.02, EXIF 2.3, ITU T.81;
 // Microsoft, "Bitmap Header Types"; Truevision, TGA 2.0; Greg Ward, Radiance picture format; OpenEXR,
-// "Standard Attributes".
+// "Standard Attributes"; RFC 9649, WebP.
 #include <array>
 
 #include "formats/known_fields.h"
@@ -110,12 +110,15 @@ constexpr std::array kExrRows{
     KnownField{"A", kShown, "holes; colours are multiplied by it"},
     KnownField{"Y", kShown, "a grey"},
     KnownField{"Y, RY, BY", kShown, "luminance and chroma, also at lower resolution"},
+    KnownField{"X, Y, Z", kShown, "as red, green and blue"},
+    KnownField{"U, V", kShown, "as red and green"},
     KnownField{"one channel", kShown, "a grey"},
     KnownField{"other channels", kReported, "Z ..."},
-    KnownField{"layers", kReported, "shown is the one without a name, or the first"},
+    KnownField{"layers", kReported,
+               "shown is the one that the name of the file chooses, the one without a name, or the first"},
     KnownField{"types half, float, uint", kShown, ""},
-    KnownField{"sampling", kRefused, "of R, G, B below that of the picture"},
-    KnownField{"parts", kReported, "the first is shown"},
+    KnownField{"sampling", kRefused, "sampling of R, G, B below that of the picture"},
+    KnownField{"parts", kReported, "shown is the one that the name of the file chooses, or the first"},
     KnownField{"deep data", kRefused, ""},
     KnownField{"tiles", kShown, ""},
     KnownField{"compression", kShown, ""},
@@ -123,14 +126,26 @@ constexpr std::array kExrRows{
     KnownField{"dataWindow", kShown, ""},
     KnownField{"displayWindow", kShown, "the picture; black where there are no data"},
     KnownField{"pixelAspectRatio", kReported, "if it is not 1"},
-    KnownField{"screenWindowCenter", kIdle, "of a camera"},
-    KnownField{"screenWindowWidth", kIdle, "of a camera"},
+    KnownField{"screenWindowCenter", kIdle, "view of a camera"},
+    KnownField{"screenWindowWidth", kIdle, "view of a camera"},
     KnownField{"chromaticities", kShown, "changed to those of Rec. 709"},
     KnownField{"whiteLuminance", kReported, ""},
     KnownField{"adoptedNeutral", kReported, ""},
-    KnownField{"envmap", kReported, "of a cube; a latitude-longitude map is the usual picture"},
+    KnownField{"envmap", kReported, "a cube map; a latitude-longitude map is the usual picture"},
     KnownField{"wrapmodes", kReported, ""},
     KnownField{"other attributes", kIdle, "Trace's own tell how a picture was made"},
+};
+
+constexpr std::array kWebpRows{
+    KnownField{"VP8, with loss", kShown, ""},
+    KnownField{"VP8L, without loss", kShown, ""},
+    KnownField{"alpha of VP8L", kShown, "holes"},
+    KnownField{"ALPH", kShown, "holes"},
+    KnownField{"ANIM, ANMF", kReported, "the first picture of an animation is shown"},
+    KnownField{"EXIF: orientation", kShown, ""},
+    KnownField{"ICCP", kReported, "if it is not sRGB"},
+    KnownField{"XMP", kIdle, ""},
+    KnownField{"other chunks", kIdle, ""},
 };
 
 }  // namespace
@@ -141,5 +156,6 @@ std::span<const KnownField> knownBmpFields() { return kBmpRows; }
 std::span<const KnownField> knownTgaFields() { return kTgaRows; }
 std::span<const KnownField> knownHdrFields() { return kHdrRows; }
 std::span<const KnownField> knownExrFields() { return kExrRows; }
+std::span<const KnownField> knownWebpFields() { return kWebpRows; }
 
 }  // namespace trace

@@ -16,7 +16,7 @@ namespace {
 
 bool isFinite(const Vec3f& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// What only shines has its colour there.
+/// An object that only emits has its colour there.
 bool onlyShines(const Material& material) {
   const Phong phong = phongOf(material.model);
   return isBlack(phong.diffuse) && isBlack(phong.specular) && isBlack(phong.ambient) &&
@@ -179,7 +179,7 @@ Box3 bounds(const Scene& scene) {
 Camera framing(const Box3& box) { return framing(box, 40, 1); }
 
 Camera framing(const Box3& box, Real fov, Real aspect, const Vec3& viewdir) {
-  constexpr Real kMargin = 1.08;  // of the picture around the box
+  constexpr Real kMargin = 1.08;  // margin of the picture around the box
   Camera camera;
   camera.fov = fov;
   camera.aspectratio = aspect;

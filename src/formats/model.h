@@ -1,4 +1,4 @@
-// What a file of meshes holds, and how it becomes part of a scene or a scene of its own.
+// The contents of a mesh file, and how it becomes part of a scene or a scene of its own.
 //
 // Readers of PLY, STL, OFF, OBJ and glTF make a Model. A `.ray` scene that names the file places the model
 // among its objects; a file rendered by itself gets the camera, lights and material it lacks.
@@ -32,12 +32,12 @@ struct Model {
   InputFiles inputs;  ///< files that this one names
   /// Seconds of the first and the last key, if something moves.
   std::optional<std::pair<Real, Real>> keys;
-  /// What the camera of a scene of its own has whole in the picture, where that is not just its objects.
+  /// The box that the camera of a scene of its own shows whole, where that is not just its objects.
   std::optional<Box3> framed;
   bool saysSides = false;  ///< the format knows Material::sides; otherwise a file by itself shows both
 };
 
-/// What every reader checks in its meshes, and how often it had to repair them.
+/// Checks of meshes for every reader, and the number of repairs.
 class MeshRepairs {
  public:
   /// Makes a mesh one that can be traced. Throws Error(Fault::scene) if each triangle uses a point that is
@@ -65,7 +65,7 @@ std::vector<Object> placed(const Model& model, const Material& base,
 /// The model as a scene of its own, with framing(), plainLights() and a grey material where it has none.
 Scene sceneOf(Model model, const std::string& file, std::string_view format);
 
-/// What a mesh without a material looks like: a light grey, matt.
+/// The material of a mesh without one: a diffuse light grey.
 Material plainMaterial();
 
 /// The bounds of all objects, in the world.

@@ -1,13 +1,18 @@
 // Sources of the heads: PNG (W3C, 3rd edition, sections 5 and 11), JPEG (ITU-T T.81, annex B), Truevision TGA
-// 2.0.
+// 2.0, WebP (RFC 9649, sections 2.7 and 3.4).
 #include "formats/model_textures.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <utility>
 
+#include "base/file.h"
 #include "base/read_scope.h"
+#include "shading/textures/image_map.h"
+#include "shading/textures/mix.h"
+#include "shading/textures/ramp.h"
 
 namespace trace {
 namespace {
@@ -42,6 +47,16 @@ PictureKind kindOfJpeg(std::string_view bytes) {
   return {};
 }
 
+PictureKind kindOfWebp(std::string_view bytes) {
+  constexpr std::size_t kChunk = 12, kData = 20;
+  const std::string_view chunk = bytes.substr(std::min(kChunk, bytes.size()), 4);
+  const unsigned extended = byteAt(bytes, kData), lossless = byteAt(bytes, kData + 4);
+  constexpr unsigned kAlpha = 0x10, kAnimated = 0x02;  // an animation is clear around its first picture
+  return {.colored = true,
+          .transparent = (chunk == "VP8X" && (extended & (kAlpha | kAnimated)) != 0) ||
+                         (chunk == "VP8L" && (lossless & kAlpha) != 0)};
+}
+
 /// Its first bytes; none of what may not be read, or is no ordinary file, which may have no end.
 std::string headOf(const std::string& path) {
   constexpr std::size_t kHead = 1 << 16;
@@ -73,6 +88,7 @@ ImageMap modelPicture(std::string file, Place place) {
 PictureKind kindOfPicture(std::string_view bytes) {
   if (bytes.starts_with("\x89PNG")) return kindOfPng(bytes);
   if (bytes.starts_with("\xff\xd8\xff")) return kindOfJpeg(bytes);
+  if (bytes.starts_with("RIFF")) return kindOfWebp(bytes);
   constexpr std::size_t kMap = 1, kType = 2, kBits = 16;
   const unsigned type = byteAt(bytes, kType);
   const bool isTga = byteAt(bytes, kMap) <= 1 && (type == 2 || type == 3 || type == 10 || type == 11);

@@ -1,5 +1,5 @@
-// What readers of models put on the fields of materials: pictures of files and from inside the scene's file,
-// products of textures, and holes.
+// Textures that readers of models put on the fields of materials: pictures of files and from inside the
+// scene's file, products of textures, and holes.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 #include "formats/textures.h"
 #include "image/raster.h"
 #include "shading/material.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 
@@ -16,7 +17,7 @@ namespace trace {
 ImageMap modelPicture(Pixels pixels);
 ImageMap modelPicture(std::string file, Place place = {});
 
-/// What the head of a picture file tells. A file that cannot be read, or whose head tells nothing, is
+/// The facts in the head of a picture file. A file that cannot be read, or whose head is invalid, is
 /// `colored` and not `transparent`.
 struct PictureKind {
   bool colored = true;       ///< false: greys only
@@ -36,7 +37,7 @@ class InsidePictures {
 
  private:
   UnusedTextures unread_;
-  std::string reason_;  ///< of the first
+  std::string reason_;  ///< reason of the first
 };
 
 /// One times the other, whose luminance counts.

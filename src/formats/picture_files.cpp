@@ -13,6 +13,7 @@
 #include "geometry/field_value.h"
 #include "geometry/shapes/csg_tree.h"
 #include "image/codec.h"
+#include "image/picture_name.h"
 
 namespace trace {
 namespace {
@@ -41,7 +42,8 @@ std::string plain(std::string_view name) {
   return text;
 }
 
-/// What tells the picture from others of its scene: its own name, or where it lies: "images-0-", "11-7".
+/// The part of a name that differs from others of its scene: its own name, or where it lies: "images-0-",
+/// "11-7".
 std::string nameOf(const Pixels& pixels, const PictureFormat& format) {
   constexpr std::size_t kLong = 60;
   std::string name = plain(pixels.inside->name);
@@ -131,7 +133,7 @@ SeenFrom seenFrom(const Scene& scene, const std::string& file, Messages& message
   const auto placed = [&](const std::string& name) {
     if (same || name.empty() || fs::path(name).is_absolute()) return name;
     const fs::path path = fs::absolute(pictureFile(scene.file, name), error).lexically_normal();
-    return fs::exists(path, error) ? path.lexically_relative(target).string() : name;
+    return fs::exists(path, error) ? pictureName(name).of(path.lexically_relative(target).string()) : name;
   };
   const auto see = [&](Pixels& pixels) {
     if (pixels.inside) {

@@ -155,7 +155,7 @@ TextFront::TextFront(const std::string& file, std::string_view bytes, Messages& 
                   "what follows the DOS end of file, byte 0x1a, is ignored");
 }
 
-/// What a text ends in on a disk of DOS or CP/M: 0x1A, and up to its block anything at all; or zeros.
+/// The end of a text on a disk of DOS or CP/M: 0x1A, and up to its block anything at all; or zeros.
 void TextFront::cutEnd() {
   constexpr std::size_t kBlock = 128;
   std::size_t end = text_.find_last_not_of(std::string_view(" \t\r\n\v\f\x1a\0", 8));

@@ -4,8 +4,8 @@
 // Taken away or translated are gzip's compression (which VRML, X3D and Inventor allow), UTF-16 and UTF-32,
 // byte order marks, the DOS end of file (0x1A) and zeros behind the text, and a carriage return alone at the
 // end of a line. So a reader sees UTF-8 (or what the file has) with lines that end in \n or \r\n, and lines
-// and columns are those an editor shows. Binary files pass as they are, but for gzip. Sources: RFC 1952; The
-// Unicode Standard, section 3.10.
+// and columns are those an editor shows. Binary files pass as they are, except for gzip. Sources: RFC 1952;
+// The Unicode Standard, section 3.10.
 #pragma once
 
 #include <string>

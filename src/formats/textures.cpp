@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/read_scope.h"
 #include "image/codec.h"
+#include "image/picture_name.h"
 #include "scene/input_files.h"
 
 namespace trace {
@@ -27,9 +28,9 @@ struct Loaded {
 
 void load(const std::string& path, Loaded& loaded) {
   try {
-    const std::string bytes = readBeside("", path, loaded.inputs);
+    const std::string bytes = readBeside("", pictureName(path).file, loaded.inputs);
     loaded.map = MipMap::decode(bytes, path);
-    if (const std::string remark = pictureRemark(bytes); !remark.empty())
+    if (const std::string remark = pictureRemark(bytes, path); !remark.empty())
       loaded.remark += (loaded.remark.empty() ? "\"" + loaded.name + "\": " : "; ") + remark;
   } catch (const ReadDenied& denied) {
     denied.at(loaded.place);
@@ -54,7 +55,7 @@ std::shared_ptr<const MipMap> missingPicture() {
 }
 
 std::string pictureFile(const std::string& from, const std::string& name) {
-  return namedFile(from, name).path;
+  return namedFile(from, pictureName(name).file).path;
 }
 
 void loadTextures(Scene& scene, Messages& messages) {
@@ -62,8 +63,9 @@ void loadTextures(Scene& scene, Messages& messages) {
   std::vector<std::pair<const std::string, Loaded>*> files;  // in the order met
   changePixels(scene, [&](Pixels& pixels) {
     if (pixels.map || pixels.file.empty()) return;
-    const NamedFile named = namedFile(scene.file, pixels.file);
-    const auto [found, fresh] = byPath.try_emplace(named.path);
+    const PictureName name = pictureName(pixels.file);
+    const NamedFile named = namedFile(scene.file, name.file);
+    const auto [found, fresh] = byPath.try_emplace(name.of(named.path));
     if (!fresh) return;
     found->second.name = pixels.file;
     found->second.remark = named.remark;
@@ -80,7 +82,7 @@ void loadTextures(Scene& scene, Messages& messages) {
   });
 
   UnusedTextures unread;
-  std::string reason;  // of the first
+  std::string reason;  // reason of the first
   for (auto* file : files) {
     auto& [path, loaded] = *file;
     scene.inputs.note(loaded.inputs);
@@ -93,7 +95,7 @@ void loadTextures(Scene& scene, Messages& messages) {
   unread.reportUnread(messages, reason);
   changePixels(scene, [&](Pixels& pixels) {
     if (pixels.map || pixels.file.empty()) return;
-    pixels.map = byPath.at(pictureFile(scene.file, pixels.file)).map;
+    pixels.map = byPath.at(pictureName(pixels.file).of(pictureFile(scene.file, pixels.file))).map;
   });
 }
 
@@ -126,8 +128,12 @@ void UnusedTextures::reportUnread(Messages& messages, std::string_view reason) c
   if (reason.starts_with(kAgain)) reason.remove_prefix(kAgain.size());
   const std::string name = "\"" + names_.front() + "\": ";
   if (names_.size() == 1 && reason.starts_with(name)) reason.remove_prefix(name.size());
+  const bool isWord = std::all_of(names_.begin(), names_.end(), [](const std::string& file) {
+    return file.find_first_of("./\\") == file.npos;  // as in diffuse = "red"
+  });
   messages.warn(place_, list() + " cannot be read: " + std::string(reason),
-                "a checker of magenta and black shows instead");
+                std::string("a checker of magenta and black shows instead") +
+                    (isWord ? "; a colour is (red, green, blue), each from 0 to 1" : ""));
 }
 
 }  // namespace trace

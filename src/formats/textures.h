@@ -24,7 +24,7 @@ void loadTextures(Scene& scene, Messages& messages);
 /// The path of namedFile() (base/named_file.h).
 std::string pictureFile(const std::string& from, const std::string& name);
 
-/// What nobody takes for the surface that was meant: a checker of magenta and black.
+/// A checker of magenta and black, which stands for a missing texture.
 std::shared_ptr<const MipMap> missingPicture();
 
 /// Pictures that a scene names and nobody will see.

@@ -28,12 +28,13 @@ struct Token {
   bool isMark(char mark) const { return kind == Kind::mark && text[0] == mark; }
 };
 
-/// What differs between the formats.
+/// The differences between the formats.
 struct TokenRules {
   std::string_view marks;  ///< characters that are tokens by themselves
   char comment = 0;        ///< begins a comment that ends with the line; 0: there are none
   bool commasAreBlank = false;
   bool stringEscapes = false;  ///< \" in a string does not end it
+  bool hasPlaces = true;       ///< false for a text that is not in the file: places are the file as a whole
 };
 
 class Tokens {

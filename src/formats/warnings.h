@@ -55,7 +55,7 @@ class WarningsByKind {
   };
   std::vector<Warning> all_;
   std::map<std::string, std::size_t, std::less<>> kinds_;
-  std::size_t others_ = 0;  ///< of kinds beyond the most
+  std::size_t others_ = 0;  ///< number of warnings of kinds beyond the most
 };
 
 }  // namespace trace

@@ -65,7 +65,7 @@ class Words {
     return rest;
   }
 
-  /// Goes on at that byte.
+  /// Continues at that byte.
   void skipTo(std::size_t at) { at_ = at; }
 
   /// Where the last word begins.

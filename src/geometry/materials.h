@@ -12,7 +12,7 @@
 
 namespace trace {
 
-/// What a place on a surface is made of: one material, two, or those of a triangle's corners.
+/// The materials at a point of a surface: one material, two, or those of a triangle's corners.
 struct MaterialMix {
   static constexpr std::uint32_t kClear =
       std::numeric_limits<std::uint32_t>::max();  ///< in place of a material: as if nothing were there

@@ -61,7 +61,7 @@ class Placement {
   /// are left out.
   bool aligned_ = false;
   Affine size_;      ///< outFromIn, every entry made positive
-  Affine rounding_;  ///< of a place p: at most that of |p|
+  Affine rounding_;  ///< rounding at a place p: at most that of |p|
 };
 
 /// A point p goes out with an error of 4 roundings of M |p| + m, where M and m are the absolute values of the

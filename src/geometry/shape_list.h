@@ -21,7 +21,7 @@
 // and, where its inside is of another material than its surface there,
 //   inside(part, own)          that of the inside
 //
-// A shape that has to be worked out before it is traced (coefficients, hierarchies, children) has instead
+// A shape that has to be computed before it is traced (coefficients, hierarchies, children) has instead
 //   prepared()          what rays meet in its place, or a shared handle to it: something with the four above.
 // prepare() asks for it once. Where that takes long, it adds
 //   checked()           its ShapeFacts, found without; throws what prepared() throws
@@ -85,8 +85,8 @@ concept Traceable = requires(const T& t, const Ray ray, const Crossing crossing)
   { t.surface(ray, crossing) } -> std::same_as<SurfacePoint>;
 };
 
-/// What rays meet in place of a shape: the shape itself, or what its prepared() makes of it. Solids of solids
-/// take over the hierarchies of meshes that are `made`.
+/// The form that rays intersect in place of a shape: the shape itself, or what its prepared() makes of it.
+/// Solids of solids take over the hierarchies of meshes that are `made`.
 template <class S>
 auto formFor(const S& shape, const MeshTrees& made = {}) {
   if constexpr (requires { shape.prepared(made); })
@@ -120,7 +120,7 @@ struct FormsOf<std::variant<S...>> {
 /// keeps its MeshTree.
 using AnyForm = detail::FormsOf<ShapeList>::type;
 
-/// What a TracedShape holds.
+/// The contents of a TracedShape.
 struct TracedShape::Held {
   AnyForm form;
   Approach approach;
@@ -144,7 +144,7 @@ void visitCrossings(const Form& form, const Ray& ray, const Range& range, Visit&
     form.crossings(ray, visit);
 }
 
-/// The same for rays that may come from far away. `traced` is an alternative of AnyForm, other than Mesh.
+/// Crossings for rays that may come from far away. `traced` is an alternative of AnyForm, other than Mesh.
 template <class Traced, class Visit>
 void visitCrossings(const Traced& traced, const Approach& approach, const Ray& ray, const Range& range,
                     Visit&& visit) {

@@ -10,22 +10,6 @@
 namespace trace {
 namespace {
 
-template <class Struct>
-std::vector<AnyField> fieldsIn(void* at) {
-  std::vector<AnyField> all;
-  Struct& shape = *static_cast<Struct*>(at);
-  forEachField<Struct>([&](const auto& f) {
-    auto& value = shape.*f.member;
-    AnyField field{f.keyword, f.unit, f.least, f.most, f.help, static_cast<bool*>(nullptr)};
-    if constexpr (std::is_enum_v<std::remove_reference_t<decltype(value)>>)
-      field.value = EnumValue(value);
-    else
-      field.value = &value;
-    all.push_back(field);
-  });
-  return all;
-}
-
 /// The parts of a form are numbered below this.
 template <class Form>
 std::int64_t partCountOf(const Form& form) {
@@ -55,36 +39,27 @@ ShapeFacts factsOf(const S& shape) {
 }
 
 template <class S, std::size_t kIndex>
-ShapeType rowOf() {
-  static_assert(kTraceable<S>, "the shape lacks one of the functions that shape_list.h asks for");
-  return {
-      .keyword = S::kKeyword, .help = S::kHelp, .index = kIndex, .ofObjects = requires(S s){s.objects.list();
+TracedShape prepared(const void* at, const MeshTrees& made) {
+  TracedShape::Held held{AnyForm(std::in_place_index<kIndex>, formFor(*static_cast<const S*>(at), made)), {}};
+  if constexpr (!std::is_same_v<S, Mesh>)
+    held.approach = Approach(formOf(*std::get_if<kIndex>(&held.form)).bounds());
+  return TracedShape(shapeTypes()[kIndex], std::make_shared<const TracedShape::Held>(std::move(held)));
 }
-, .make = []() -> std::shared_ptr<void> { return std::make_shared<S>(); },
-  .copy = [](const void* at) -> std::shared_ptr<void> {
-    return std::make_shared<S>(*static_cast<const S*>(at));
-  },
-  .equal = [](const void* a,
-              const void* b) { return *static_cast<const S*>(a) == *static_cast<const S*>(b); },
-  .fields = fieldsIn<S>,
-  .prepare =
-      [](const void* at, const MeshTrees& made) {
-        TracedShape::Held held{
-            AnyForm(std::in_place_index<kIndex>, formFor(*static_cast<const S*>(at), made)), {}};
-        if constexpr (!std::is_same_v<S, Mesh>)
-          held.approach = Approach(formOf(*std::get_if<kIndex>(&held.form)).bounds());
-        return TracedShape(shapeTypes()[kIndex], std::make_shared<const TracedShape::Held>(std::move(held)));
-      },
-  .check = [](const void* at) { return factsOf(*static_cast<const S*>(at)); },
-};  // namespace
-}  // namespace trace
+
+template <class S, std::size_t kIndex>
+ShapeType rowFor() {
+  static_assert(kTraceable<S>, "the shape lacks one of the functions that shape_list.h asks for");
+  constexpr bool kOfObjects = requires(S s) { s.objects.list(); };
+  return {ShapeType::of<S>(kIndex), kOfObjects, prepared<S, kIndex>,
+          [](const void* at) { return factsOf(*static_cast<const S*>(at)); }};
+}
 
 constexpr std::size_t kTypes = std::variant_size_v<ShapeList>;
 static_assert(kTypes <= kMostShapeTypes);
 
 std::array<ShapeType, kTypes> makeTable() {
   return []<std::size_t... I>(std::index_sequence<I...>) {
-    return std::array{rowOf<std::variant_alternative_t<I, ShapeList>, I>()...};
+    return std::array{rowFor<std::variant_alternative_t<I, ShapeList>, I>()...};
   }
   (std::make_index_sequence<kTypes>{});
 }
@@ -111,30 +86,26 @@ const ShapeType* findShapeType(std::string_view keyword) {
   return nullptr;
 }
 
-const ShapeType& detail::shapeType(std::string_view keyword) {
+template <>
+const ShapeType& rowCalled<ShapeType>(std::string_view keyword) {
   if (const ShapeType* type = findShapeType(keyword)) return *type;
   throw std::logic_error("no shape of the list is called " + std::string(keyword));
 }
 
 // --- shapes -------------------------------------------------------------------------------------------
 
-// Read only: the pointers are not const for editFields()' sake.
-std::vector<AnyField> fieldsOf(const Shape& shape) { return shape.type_->fields(shape.data_.get()); }
-
 const std::vector<std::uint32_t>& materialsOf(const Shape& shape) {
   static const std::vector<std::uint32_t> kNone;
   if (const auto* mesh = shape.as<Mesh>()) return mesh->data->materials;
-  for (const AnyField& field : fieldsOf(shape))
+  for (const AnyField& field : shape.fields())
     if (const auto* materials = std::get_if<MaterialList*>(&field.value)) return (*materials)->indices;
   return kNone;
 }
 
-std::vector<AnyField> Shape::editFields() { return type_->fields(own()); }
-
 const Operands& Shape::operands() const {
   static const Operands kNone;
-  if (type_->ofObjects)
-    for (const AnyField& field : fieldsOf(*this))
+  if (type().ofObjects)
+    for (const AnyField& field : fields())
       if (const auto* objects = std::get_if<Operands*>(&field.value)) return **objects;
   return kNone;
 }
@@ -146,10 +117,10 @@ void Shape::setOperands(Operands operands) {
 
 // --- forms --------------------------------------------------------------------------------------------
 
-ShapeFacts check(const Shape& shape) { return shape.type_->check(shape.data_.get()); }
+ShapeFacts check(const Shape& shape) { return shape.type().check(shape.data()); }
 
 TracedShape prepare(const Shape& shape, const MeshTrees& made) {
-  return shape.type_->prepare(shape.data_.get(), made);
+  return shape.type().prepare(shape.data(), made);
 }
 
 std::shared_ptr<const MeshData> TracedShape::mesh() const {

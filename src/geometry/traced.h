@@ -1,4 +1,4 @@
-// What rays meet in place of a shape, whatever its type: the shape itself, or what it was worked out to. The
+// The traced form of a shape, whatever its type: the shape itself, or data computed from it. The
 // World goes a shorter way (render/world_queries.cpp).
 #pragma once
 
@@ -40,7 +40,7 @@ class TracedShape {
   bool ofSeveralMaterials() const;
   MaterialMix material(std::int64_t part, std::uint32_t own) const;
   void addMaterials(std::vector<std::uint32_t>& all) const;
-  /// What fills the shape at that part of its surface, which may be of another material.
+  /// The medium inside the shape at that part of its surface, which may be of another material.
   MaterialMix inside(std::int64_t part, std::uint32_t own) const;
 
   /// Its parts are numbered below this.
@@ -53,7 +53,7 @@ class TracedShape {
   std::shared_ptr<const Held> held_;
 };
 
-/// What is known of a shape before anything is built of it.
+/// Facts about a shape before anything is built of it.
 struct ShapeFacts {
   bool solid = false;  ///< a mesh counts as one: the World warns of those that are not closed
   Box3 bounds{};       ///< holds the shape, perhaps with room left
@@ -64,7 +64,7 @@ struct ShapeFacts {
 /// terrains are not built for it.
 ShapeFacts check(const Shape& shape);
 
-/// What rays meet of the shape. Solids of solids take over the hierarchies of meshes that are `made`. Throws
+/// The traced form of the shape. Solids of solids take over the hierarchies of meshes that are `made`. Throws
 /// Error for a shape that cannot be traced.
 TracedShape prepare(const Shape& shape, const MeshTrees& made = {});
 

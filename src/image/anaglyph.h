@@ -7,7 +7,7 @@
 
 namespace trace {
 
-/// What each eye's colour adds to that which is shown: rows are the channels shown.
+/// The weights of each eye's colour in the shown one: rows are the channels shown.
 struct Anaglyph {
   std::array<Color, 3> left, right;
 };

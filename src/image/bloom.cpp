@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kDampedWaves = 2;  // each with its conjugate
 constexpr std::size_t kLanes = 16;       // columns that are blurred together
-constexpr std::size_t kValues = 4;       // of a pixel: its colour, and how much of it is there
+constexpr std::size_t kValues = 4;       // values of a pixel: its colour, and how much of it is there
 constexpr std::size_t kTogether = kLanes * kValues;
 constexpr double kLargest = 1e290;  // sums stay finite
 
@@ -134,7 +134,7 @@ Picture gaussianBlurred(const Picture& picture, double sigma) {
 }
 
 Picture bloomed(const Picture& picture, double share) {
-  constexpr double kSizes[] = {0.005, 0.02, 0.06};  // of the height
+  constexpr double kSizes[] = {0.005, 0.02, 0.06};  // sizes relative to the height
   Picture result = picture;
   for (Color& c : result.pixels) {
     checkBudget();

@@ -1,8 +1,8 @@
 // The table of picture formats, and reading and writing through it: see codec.h.
 //
-// The last station of a picture. The rows' parts are in codec_plain.cpp, codec_stb.cpp, codec_exr.cpp and
-// metadata.cpp. Source: each format's signature, from its specification; Truevision's TGA 2.0 has none, so
-// TGA is tried last and only on a header that makes sense.
+// The last station of a picture. The rows' parts are in codec_plain.cpp, codec_stb.cpp, codec_exr.cpp,
+// codec_webp.cpp and metadata.cpp. Source: each format's signature, from its specification; Truevision's
+// TGA 2.0 has none, so TGA is tried last and only on a header that makes sense.
 #include "image/codec.h"
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include "base/match.h"
 #include "base/text.h"
 #include "image/codec_parts.h"
+#include "image/picture_name.h"
 
 namespace trace {
 
@@ -97,15 +98,17 @@ std::string noRemark(std::string_view) { return {}; }
 
 constexpr std::string_view kPng[] = {".png"}, kBmp[] = {".bmp"}, kPpm[] = {".ppm", ".pnm"},
                            kJpeg[] = {".jpg", ".jpeg"}, kHdr[] = {".hdr"}, kExr[] = {".exr"},
-                           kTga[] = {".tga"};
+                           kWebp[] = {".webp"}, kTga[] = {".tga"};
 /// As many as memory can address.
 constexpr std::size_t kAnyNumber = std::numeric_limits<std::size_t>::max() / sizeof(Color);
+
+constexpr int kMostWebpSide = 16383;
 
 // Reading tries them in this order.
 constexpr PictureFormat kFormats[] = {
     {"PNG", kPng, "8 bits a channel, compressed without loss; carries the render's settings", false, true,
      INT_MAX, kMostStbPixels, encodePng, isPng, decodePng, pngText, pngRemark},
-    {"BMP", kBmp, "8 bits a channel, uncompressed; what the courses hand in", false, true, INT_MAX,
+    {"BMP", kBmp, "8 bits a channel, uncompressed; for hand-ins in the courses", false, true, INT_MAX,
      kMostStbPixels, encodeBmp, isBmp, decodeBmp, noMetadata, bmpRemark},
     {"PPM", kPpm, "8 bits a channel, uncompressed; the simplest there is", false, true, INT_MAX, kAnyNumber,
      encodePpm, isPpm, decodePpm, commentLines, noRemark},
@@ -114,7 +117,9 @@ constexpr PictureFormat kFormats[] = {
     {"HDR", kHdr, "Radiance RGBE, keeps values above 1 to one part in 256 of the brightest channel", true,
      false, INT_MAX, kMostStbPixels, encodeHdr, isHdr, decodeHdr, commentLines, hdrRemark},
     {"EXR", kExr, "32-bit floats, keeps every value; carries the render's settings", true, true, 1 << 24,
-     kAnyNumber, encodeExr, isExr, decodeExr, exrMetadata, exrRemark},
+     kAnyNumber, encodeExr, isExr, decodeExr, exrMetadata, exrRemark, decodeExrLayer, exrLayerRemark},
+    {"WebP", kWebp, "8 bits a channel, with or without loss; read, not written", false, true, kMostWebpSide,
+     kAnyNumber, nullptr, isWebp, decodeWebp, noMetadata, webpRemark},
     {"TGA", kTga, "8 bits a channel, run-length coded", false, true, 65535, kMostStbPixels, encodeTga, isTga,
      decodeTga, noMetadata, tgaRemark},
 };
@@ -126,12 +131,52 @@ std::string lowerCase(std::string_view text) {
   return lower;
 }
 
+/// In lower case, with the dot; "" if the name has none.
+std::string suffixOf(std::string_view path) {
+  const size_t dot = path.rfind('.'), slash = path.find_last_of("/\\");
+  const bool hasSuffix = dot != std::string_view::npos && (slash == std::string_view::npos || dot > slash);
+  return hasSuffix ? lowerCase(path.substr(dot)) : "";
+}
+
 /// `PNG, BMP, ... or TGA` and the like.
 std::string listed(const std::vector<std::string_view>& words) {
   std::string text;
   for (size_t i = 0; i < words.size(); ++i)
     text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + std::string(words[i]);
   return text;
+}
+
+/// The kind of the bytes, if it is a known one that is not read; "" otherwise.
+std::string_view foreignKind(std::string_view bytes) {
+  struct Kind {
+    std::size_t at;  ///< where its mark stands
+    std::string_view mark, name;
+  };
+  using namespace std::string_view_literals;
+  static constexpr Kind kKinds[] = {{0, "\xABKTX 20\xBB"sv, "a KTX2 texture"},
+                                    {0, "\xABKTX 11\xBB"sv, "a KTX texture"},
+                                    {0, "DDS "sv, "a DDS texture"},
+                                    {4, "ftypavif"sv, "an AVIF picture"},
+                                    {4, "ftyphei"sv, "a HEIF picture"},
+                                    {0, "GIF8"sv, "a GIF picture"},
+                                    {0, "II*\0"sv, "a TIFF picture"},
+                                    {0, "MM\0*"sv, "a TIFF picture"},
+                                    {0, "8BPS"sv, "a Photoshop document"},
+                                    {0, "<svg"sv, "an SVG drawing"},
+                                    {0, "\xFF\x0A"sv, "a JPEG XL picture"},
+                                    {0, "\0\0\0\xCJXL "sv, "a JPEG XL picture"},
+                                    {0, "\0\0\0\xCjP  "sv, "a JPEG 2000 picture"}};
+  for (const Kind& kind : kKinds)
+    if (bytes.size() >= kind.at && bytes.substr(kind.at).starts_with(kind.mark)) return kind.name;
+  return {};
+}
+
+Raster decodedBy(const PictureFormat& format, std::string_view bytes, const std::string& name,
+                 const PictureLimits& limits) {
+  const std::string layer = pictureName(name).layer;
+  if (layer.empty()) return format.decode(bytes, limits);
+  if (!format.decodeLayer) throw std::runtime_error("only EXR files have layers");
+  return format.decodeLayer(bytes, limits, layer);
 }
 
 /// Calls use(format) with the row the bytes belong to; any failure becomes an Error that names the file.
@@ -151,30 +196,41 @@ decltype(auto) withFormatOf(std::string_view bytes, const std::string& name, Use
       throw Error(Fault::io, "cannot read \"" + name + "\" as " + std::string(format.name) + ": " + e.what());
     }
   }
+  const std::string_view foreign = foreignKind(bytes);
   throw Error(Fault::io, "cannot read \"" + name + "\": a picture (" + listed(names) + ") was expected, " +
-                             (bytes.empty() ? "the file is empty" : "it begins like none of them"));
+                             (bytes.empty()      ? "the file is empty"
+                              : !foreign.empty() ? "found " + std::string(foreign) + ", which is not read"
+                                                 : "it begins like none of them"));
 }
 
 }  // namespace
 
 std::span<const PictureFormat> pictureFormats() { return kFormats; }
 
-const PictureFormat& pictureFormatFor(std::string_view path) {
-  const size_t dot = path.rfind('.'), slash = path.find_last_of("/\\");
-  const bool hasSuffix = dot != std::string_view::npos && (slash == std::string_view::npos || dot > slash);
-  const std::string suffix = hasSuffix ? lowerCase(path.substr(dot)) : "";
-  std::vector<std::string_view> known;
+const PictureFormat* pictureFormatNamed(std::string_view path) {
+  const std::string suffix = suffixOf(pictureName(std::string(path)).file);
   for (const PictureFormat& format : kFormats)
-    for (std::string_view candidate : format.suffixes) {
-      if (candidate == suffix) return format;
-      known.push_back(candidate);
-    }
+    for (std::string_view candidate : format.suffixes)
+      if (candidate == suffix) return &format;
+  return nullptr;
+}
+
+const PictureFormat& pictureFormatFor(std::string_view path) {
+  const std::string layer = pictureName(std::string(path)).layer;
+  const PictureFormat* named = pictureFormatNamed(path);
+  if (named && named->encode && layer.empty()) return *named;
+  std::vector<std::string_view> written;
+  for (const PictureFormat& format : kFormats)
+    if (format.encode) written.insert(written.end(), format.suffixes.begin(), format.suffixes.end());
   throw Error(Fault::usage,
-              "the name of a picture ends in " + listed(known) + ", found \"" + std::string(path) + "\"",
-              didYouMean(suffix, known));
+              "the name of a picture ends in " + listed(written) + ", found \"" + std::string(path) + "\"",
+              !layer.empty() ? "layers are read, not written"
+              : named        ? std::string(named->name) + " pictures are read, not written"
+                             : didYouMean(suffixOf(path), written));
 }
 
 void checkEncodable(const PictureFormat& format, int width, int height) {
+  if (!format.encode) throw Error(Fault::usage, std::string(format.name) + " pictures are read, not written");
   const bool fits = width >= 1 && height >= 1 && width <= format.mostSide && height <= format.mostSide &&
                     static_cast<std::size_t>(width) <= format.mostPixels / static_cast<std::size_t>(height);
   if (fits) return;
@@ -218,16 +274,21 @@ const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& 
 }
 
 Picture decodePicture(std::string_view bytes, const std::string& name, const PictureLimits& limits) {
-  return withFormatOf(bytes, name,
-                      [&](const PictureFormat& format) { return toPicture(format.decode(bytes, limits)); });
+  return withFormatOf(bytes, name, [&](const PictureFormat& format) {
+    return toPicture(decodedBy(format, bytes, name, limits));
+  });
 }
 
 Raster decodeRaster(std::string_view bytes, const std::string& name, const PictureLimits& limits) {
-  return withFormatOf(bytes, name, [&](const PictureFormat& format) { return format.decode(bytes, limits); });
+  return withFormatOf(bytes, name,
+                      [&](const PictureFormat& format) { return decodedBy(format, bytes, name, limits); });
 }
 
-std::string pictureRemark(std::string_view bytes) {
-  return withFormatOf(bytes, "", [&](const PictureFormat& format) { return format.remark(bytes); });
+std::string pictureRemark(std::string_view bytes, const std::string& name) {
+  const std::string layer = pictureName(name).layer;
+  return withFormatOf(bytes, name, [&](const PictureFormat& format) {
+    return layer.empty() || !format.layerRemark ? format.remark(bytes) : format.layerRemark(bytes, layer);
+  });
 }
 
 Picture toPicture(const Raster& raster) {
@@ -245,7 +306,7 @@ Picture toPicture(const Raster& raster) {
 }
 
 Picture readPicture(const std::string& path, const PictureLimits& limits) {
-  return decodePicture(readFile(path), path, limits);
+  return decodePicture(readFile(pictureName(path).file), path, limits);
 }
 
 Metadata readMetadata(const std::string& path) {

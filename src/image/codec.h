@@ -18,7 +18,7 @@
 
 namespace trace {
 
-/// What may be read. Asked of a file's header, before memory is taken for its pixels.
+/// The limits of reading. Checked in a file's header, before memory is allocated for its pixels.
 struct PictureLimits {
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes, for the picture and what its decoder needs
 };
@@ -33,7 +33,8 @@ struct PictureFormat {
   int mostSide;                                ///< the largest width and height
   std::size_t mostPixels;
 
-  /// The file, of a picture that passed checkEncodable(). Rounding matters only to 8-bit formats.
+  /// The file, of a picture that passed checkEncodable(). Rounding matters only to 8-bit formats. Null for a
+  /// format that is only read.
   std::string (*encode)(const Picture&, Rounding, const Metadata&);
   /// Whether the bytes begin like a file of this format.
   bool (*recognise)(std::string_view bytes);
@@ -42,17 +43,26 @@ struct PictureFormat {
   Raster (*decode)(std::string_view bytes, const PictureLimits&);
   /// The words stored with the picture; may throw as decode does.
   Metadata (*metadata)(std::string_view bytes);
-  /// What of a file that can be decoded is not as it should be, or is not shown; "" if there is nothing to
+  /// Remarks on a file that can be decoded: flaws, or parts that are not shown; "" if there is nothing to
   /// say.
   std::string (*remark)(std::string_view bytes);
+  /// Decodes a layer, by its name; null for formats without layers.
+  Raster (*decodeLayer)(std::string_view bytes, const PictureLimits&, const std::string& layer) = nullptr;
+  std::string (*layerRemark)(std::string_view bytes, const std::string& layer) = nullptr;
 };
 
 std::span<const PictureFormat> pictureFormats();
 
-/// By the suffix of the path, in any case. Throws Error(Fault::usage) that names all known suffixes.
+/// By the suffix of the path, in any case; null if no format has it. The name may choose a layer
+/// (image/picture_name.h).
+const PictureFormat* pictureFormatNamed(std::string_view path);
+
+/// The format in which a file of that name is written. Throws Error(Fault::usage) that names all suffixes of
+/// formats that are written.
 const PictureFormat& pictureFormatFor(std::string_view path);
 
-/// Throws Error(Fault::usage) if the format cannot hold a picture of this size: to be asked before rendering.
+/// Throws Error(Fault::usage) if the format is only read, or cannot hold a picture of this size: to be asked
+/// before rendering.
 void checkEncodable(const PictureFormat& format, int width, int height);
 
 /// The bytes of the file. Throws as checkEncodable(), or Error(Fault::io).
@@ -70,18 +80,19 @@ void writePicture(const std::string& path, const Picture& picture, Rounding roun
 /// The row that the bytes of a picture file belong to. Throws as decodePicture().
 const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& name);
 
-/// The picture in the bytes; transparency is dropped. `name` is for messages. Throws Error(Fault::io) on
-/// anything that is not a whole, sound file of a known format, Error(Fault::limit) for a picture larger than
-/// the limits, and when memory is short.
+/// The picture in the bytes; transparency is dropped. `name` is for messages, and may choose a layer
+/// (image/picture_name.h). Throws Error(Fault::io) on anything that is not a whole, sound file of a known
+/// format, or has no such layer, Error(Fault::limit) for a picture larger than the limits, and when memory is
+/// short.
 Picture decodePicture(std::string_view bytes, const std::string& name, const PictureLimits& limits = {});
 
-/// The same as the file has it, with transparency. Throws as decodePicture().
+/// Decodes the picture as the file has it, with transparency. Throws as decodePicture().
 Raster decodeRaster(std::string_view bytes, const std::string& name, const PictureLimits& limits = {});
 
 /// A warning about a picture that decodeRaster() has read, such as of layers that are not shown; "" for none.
-std::string pictureRemark(std::string_view bytes);
+std::string pictureRemark(std::string_view bytes, const std::string& name);
 
-/// decodePicture() of a file. Throws Error.
+/// decodePicture() of a file, whose name may choose a layer. Throws Error.
 Picture readPicture(const std::string& path, const PictureLimits& limits = {});
 
 /// The words stored with a picture file, in their order; empty where its format has none. Throws Error.

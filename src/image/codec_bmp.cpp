@@ -222,7 +222,7 @@ class BmpReader {
   int width_ = 0, height_ = 0, bits_ = 0;
   std::uint32_t packing_ = none;
   bool fromAbove_ = false;
-  std::array<std::uint32_t, 4> masks_{};  ///< of red, green, blue and alpha, where pixels are numbers
+  std::array<std::uint32_t, 4> masks_{};  ///< masks of red, green, blue and alpha, where pixels are numbers
   std::vector<Rgba> palette_, pixels_;
 };
 

@@ -1,4 +1,4 @@
-// What the table of codec.cpp is made of, and the limits its parts keep. Only the codec files include it.
+// Parts of the table of codec.cpp, and the limits they keep. Only the codec files include it.
 //
 // Encoders take a picture that passed checkEncodable(). Decoders throw a std::exception whose what() is the
 // reason; codec.cpp makes an Error of it that names the file.
@@ -85,7 +85,13 @@ std::string hdrRemark(std::string_view bytes);
 
 std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata);
 Raster decodeExr(std::string_view bytes, const PictureLimits& limits);
+Raster decodeExrLayer(std::string_view bytes, const PictureLimits& limits, const std::string& layer);
 std::string exrRemark(std::string_view bytes);
+std::string exrLayerRemark(std::string_view bytes, const std::string& layer);
 Metadata exrMetadata(std::string_view bytes);
+
+bool isWebp(std::string_view bytes);
+Raster decodeWebp(std::string_view bytes, const PictureLimits& limits);
+std::string webpRemark(std::string_view bytes);
 
 }  // namespace trace

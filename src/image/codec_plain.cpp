@@ -4,7 +4,7 @@
 // written; Greg Ward, "Real Pixels", Graphics Gems II (1991), and the Radiance picture format, of which
 // flat rows and both run-length codes are read, of RGBE and XYZE, in all eight orientations and with their
 // exposure taken back, and flat rows are written. stb could read both, but
-// version 2.27 loops for ever on a truncated HDR file and takes 16-bit PPM with its bytes swapped.
+// version 2.27 loops infinitely on a truncated HDR file and takes 16-bit PPM with its bytes swapped.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -149,7 +149,7 @@ std::string_view takeLine(std::string_view& rest) {
   return line;
 }
 
-/// What the lines at the head of a Radiance picture say of its pixels.
+/// The properties in the head of a Radiance picture.
 class HdrHead {
  public:
   /// Leaves `rest` behind the lines.
@@ -158,7 +158,7 @@ class HdrHead {
     for (std::string_view line = takeLine(rest); !line.empty(); line = takeLine(rest)) read(line);
   }
 
-  /// Of a pixel: what was measured, before somebody made it brighter, as Rec. 709 has it.
+  /// Converts a pixel to the measured values, before somebody made it brighter, in Rec. 709.
   Color radiance(const Color& pixel) const {
     const Color c = pixel * scale_;
     if (!xyz_) return c;
@@ -182,7 +182,7 @@ class HdrHead {
         throw std::runtime_error("the format 32-bit_rle_rgbe or 32-bit_rle_xyze was expected, found " +
                                  std::string(format));
     }
-    // Of several lines all count.
+    // All of several lines count.
     if (const auto factor = numbers(after(line, "EXPOSURE="), 1); factor[0] > 0)
       scale_ *= Color(1 / factor[0]);
     if (const auto f = numbers(after(line, "COLORCORR="), 3); f[0] > 0 && f[1] > 0 && f[2] > 0)
@@ -215,7 +215,7 @@ class HdrHead {
   bool xyz_ = false, primaries_ = false, stretched_ = false;
 };
 
-/// Of the rows as the file has them.
+/// Reads the rows as the file has them.
 struct HdrSize {
   int width, height;
   Orientation orientation;

@@ -56,7 +56,8 @@ class Deflater {
   std::string packed_;
 };
 
-/// Of the bytes to the left, above, and above the left one: the one nearest to left + above - corner.
+/// Predicts from the bytes to the left, above, and above the left one: the one nearest to left + above -
+/// corner.
 int paeth(int left, int above, int corner) {
   const int toLeft = std::abs(above - corner), toAbove = std::abs(left - corner),
             toCorner = std::abs(left + above - 2 * corner);
@@ -64,7 +65,7 @@ int paeth(int left, int above, int corner) {
   return toAbove <= toCorner ? above : corner;
 }
 
-/// What the filter of that number leaves of a row, behind the number; `before` is the row above.
+/// Filters a row by the filter of that number, behind the number; `before` is the row above.
 void filter(int number, const unsigned char* row, const unsigned char* before, std::size_t step,
             Row& result) {
   result[0] = static_cast<unsigned char>(number);

@@ -199,7 +199,7 @@ Raster withoutAlpha(const Raster& given) {
   return raster;
 }
 
-/// Of 8 bits a channel, with an alpha that is 0 everywhere.
+/// A picture of 8 bits a channel, with an alpha that is 0 everywhere.
 bool isNowhere(const Raster& raster) {
   const auto& samples = std::get<std::vector<stbi_uc>>(raster.samples);
   const auto stride = static_cast<size_t>(raster.channels);

@@ -26,7 +26,7 @@ struct Comparison {
   double psnr = 0;               ///< decibel; infinite when identical
   std::size_t valuesBeyond = 0;  ///< channel values that differ by more than the tolerance
   double fractionBeyond = 1;     ///< valuesBeyond / all values
-  std::size_t pixelsBeyond = 0;  ///< pixels with such a value
+  std::size_t pixelsBeyond = 0;  ///< pixels with a value beyond the tolerance
   double pixelFractionBeyond = 1;
 };
 

@@ -1,4 +1,4 @@
-// What the corners of divided pixels see (subdivision.h), level by level: a film keeps them, for a level
+// Samples of the corners of divided pixels (subdivision.h), level by level: a film keeps them, for a level
 // looks at those before.
 #pragma once
 
@@ -16,9 +16,9 @@ class CornerSamples {
   /// sortCorners().
   struct Level {
     Tile area{0, 0, 0, 0};
-    std::vector<std::size_t> starts;  ///< of each pixel's, and the end
+    std::vector<std::size_t> starts;  ///< start of each pixel's corners, and the end
     std::vector<Corner> corners;
-    std::vector<std::vector<Color>> values;  ///< of each corner: the colour, and what layers keep
+    std::vector<std::vector<Color>> values;  ///< values of each corner: the colour, and what layers keep
 
     std::size_t pixel(int x, int y) const {
       return static_cast<std::size_t>(y - area.y0) * static_cast<std::size_t>(area.x1 - area.x0) +
@@ -46,7 +46,7 @@ class CornerSamples {
            static_cast<std::size_t>(x / tileSize_);
   }
 
-  /// What the corner sees: the colour, or what a layer keeps of it. It has to be there.
+  /// The value of the corner: the colour, or what a layer keeps of it. It has to be there.
   const Color& at(CornerPlace place, std::size_t value = 0) const;
   /// The corners of the pixel, for divide().
   auto of(int x, int y, std::size_t value = 0) const {
@@ -65,7 +65,7 @@ class CornerSamples {
  private:
   Subdivision rules_;
   int tileSize_, columns_;
-  std::vector<std::vector<Level>> levels_;  ///< of each tile
+  std::vector<std::vector<Level>> levels_;  ///< levels of each tile
 };
 
 }  // namespace trace

@@ -11,10 +11,10 @@ namespace {
 
 constexpr int kReach = 8;                            // pixels to each side that are averaged
 constexpr int kPatch = 3;                            // to each side of what is compared
-constexpr int kRows = 16;                            // of a chunk
+constexpr int kRows = 16;                            // rows of a chunk
 constexpr int kNoiseReach = 4;                       // over which the noise of halves is averaged
 constexpr float kColours = 0.45f, kSurfaces = 0.6f;  // how far apart is alike still; both papers'
-constexpr float kLeastSlope = 1e-3f;                 // of features, squared
+constexpr float kLeastSlope = 1e-3f;                 // least slope of features, squared
 
 /// A picture of floats: three channels, one after the other.
 struct Plane {
@@ -102,7 +102,7 @@ struct Feature {
         }
         const float middle = values[0].row(y)[x];
         const float least =
-            channels == 1 ? kLeastSlope * middle * middle : kLeastSlope;  // of a depth, a part
+            channels == 1 ? kLeastSlope * middle * middle : kLeastSlope;  // for a depth, relative to it
         tolerance.row(y)[x] = std::max(slope, least) * kSurfaces * kSurfaces;
       }
   }

@@ -14,10 +14,10 @@
 
 namespace trace {
 
-/// What guides it: of the first surfaces, on the average of a pixel's samples.
+/// The guides of denoising: features of the first surfaces, on the average of a pixel's samples.
 struct NoiseGuides {
   Picture albedo, normal;
-  Picture nearness;  ///< 1 / depth; 0 where nothing is met
+  Picture nearness;  ///< 1 / depth; 0 where nothing is hit
 };
 
 /// Bytes that a pixel takes meanwhile: the halves and guides, their planes of floats, and the results.

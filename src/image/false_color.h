@@ -8,7 +8,7 @@
 namespace trace {
 
 /// A colour of its own for each whole number: black for 0, bright ones for the others; neighbouring numbers
-/// get colours that are easy to tell apart. The same for ever.
+/// get colours that are easy to tell apart. They never change.
 Color numberColor(std::uint64_t number);
 
 /// From black at 0 over violet, red and yellow to white at 1; ever brighter. Clamps; NaN is white.

@@ -40,7 +40,7 @@ constexpr int longestWave(int first) { return std::clamp(first, 1, 16); }
 std::vector<Wave> wavesOf(int samples, int first = 0);
 
 /// The mean of samples that may count differently, and below 0: the sum of weight times colour by that of the
-/// weights, so that a plain surface stays plain. Where those below 0 nearly undo the others, by chance, they
+/// weights, so that a plain surface stays plain. Where those below 0 nearly undo the others, at random, they
 /// do not count.
 class WeightedMean {
  public:
@@ -65,7 +65,7 @@ class WeightedMean {
     rest.weightsAbove_ -= part.weightsAbove_;
     return rest;
   }
-  /// What a sample of the weight, one of `count`, counts in it: 1 if all count alike.
+  /// The weight of a sample in it, one of `count`: 1 if all count alike.
   double counts(double weight, double count) const {
     if (usesAll()) return weights_ != 0 ? weight * count / weights_ : 0;
     return weight > 0 ? weight * count / weightsAbove_ : 0;
@@ -79,7 +79,7 @@ class WeightedMean {
   double weights_ = 0, weightsAbove_ = 0;
 };
 
-/// What is known of a pixel: its colour so far, and how much that may be off.
+/// The state of a pixel: its colour so far, and how much that may be off.
 class PixelSum {
  public:
   /// One that is not finite is counted, and that is all.
@@ -98,7 +98,7 @@ class PixelSum {
   /// Before so many samples nothing is known of the error.
   static constexpr int kFewest = 16;
   /// The standard error of the mean's luminance, as if the samples were independent: more than the true one
-  /// where they are spread evenly. In parts of white or, above white, of the mean.
+  /// where they are spread evenly. Relative to white or, above white, of the mean.
   double error() const;
   /// The variance of the mean's luminance, likewise.
   double variance() const;
@@ -114,8 +114,8 @@ class PixelSum {
     if (taken_ >= kFewest) firstError_ = static_cast<float>(error());
   }
   void noteFirstError(double error) { firstError_ = static_cast<float>(error); }
-  /// Of one that settles: whether that is no accident. A few samples that agree may all have missed an edge
-  /// that a pixel around it has met, of the greatest firstError().
+  /// For a pixel that settles: whether that is no accident. A few samples that agree may all have missed an
+  /// edge that a pixel around it has met, of the greatest firstError().
   bool isSure(double noise, double around) const {
     return taken_ >= kSure || around * std::sqrt(static_cast<double>(kFewest) / taken_) <= noise;
   }
@@ -134,23 +134,23 @@ struct PixelBeside {
   double firstError;
 };
 
-/// What one wave brings of the pixels of an area, row by row; of each pixel its samples in their order, and
-/// none of those that have settled before.
+/// The samples of one wave for the pixels of an area, row by row; of each pixel its samples in their order,
+/// and none of those that have settled before.
 struct TileSamples {
   Tile area{0, 0, 0, 0};
   std::vector<Color> colors;               ///< those that are not finite do not count
-  std::vector<double> weights{};           ///< of these; empty if all are 1
+  std::vector<double> weights{};           ///< weights of the samples; empty if all are 1
   std::vector<std::vector<Color>> layers;  ///< the same of each layer; one that is missing stays blank
   std::vector<Splat> splats{};             ///< anywhere in the picture, where the film takes splats
   std::int64_t paths = 0;                  ///< that brought them
-  std::vector<std::size_t> starts{};       ///< of each pixel's, and the end, where pixels are divided
+  std::vector<std::size_t> starts{};       ///< first sample of each divided pixel, and the end
   std::vector<Corner> corners{};           ///< that they are then
-  std::vector<PixelBeside> beside{};       ///< of the tile, after the first wave that is judged
+  std::vector<PixelBeside> beside{};       ///< pixels beside the tile, after the first judged wave
 };
 
 /// How far a picture has come.
 struct Convergence {
-  double samples = 0;   ///< of a pixel, on the average
+  double samples = 0;   ///< samples of a pixel, on the average
   double error = 0;     ///< PixelSum::error(), on the average of those pixels that have two samples or more
   bool judged = false;  ///< there are such pixels, and their samples are their own
 };
@@ -158,8 +158,8 @@ struct Convergence {
 /// Two pictures of one half of the samples each, and how exact both together are: what removes noise needs.
 struct Halves {
   Picture first, second;
-  std::vector<double> variance;  ///< of the mean of all samples' luminance, as if they were independent
-  std::vector<double> share;     ///< of the samples that are in the first; 0 where one half has none
+  std::vector<double> variance;  ///< variance of the mean luminance, for independent samples
+  std::vector<double> share;     ///< share of the first half; 0 if one half has none
 };
 
 /// A saved film has more samples than are asked for.
@@ -171,7 +171,7 @@ class Film {
  public:
   static constexpr int kTileSize = 32;  ///< in pixels, of a side
 
-  /// What a layer keeps of a pixel's samples.
+  /// The way in which a layer keeps a pixel's samples.
   enum class Keep { first, mean, sum };
   struct LayerKind {
     Color blank;  ///< the value wherever nothing is rendered
@@ -242,11 +242,11 @@ class Film {
 
   /// The mean of the pixel's samples, without what others have brought there. While nobody adds.
   Color ofSamples(int x, int y) const;
-  /// What others have brought there so far. From any thread while others add.
+  /// The splats of other pixels there so far. From any thread while others add.
   Color ofSplats(int x, int y) const;
   /// The mean of what is there so far, black elsewhere. From any thread while others add.
   Picture picture() const;
-  /// The same of a layer, blank elsewhere.
+  /// The picture of a layer, blank elsewhere.
   Picture layer(std::size_t number) const;
   /// How many samples each pixel has. From any thread.
   Picture sampleCounts() const;
@@ -305,7 +305,7 @@ class Film {
   std::unique_ptr<TileState[]> states_;
   std::unique_ptr<SplatPlane> splats_;  ///< null where none are taken
   std::unique_ptr<CornerSamples> corners_;
-  std::vector<WeightedMean> first_;  ///< of the first half of each pixel's samples, if halves are kept
+  std::vector<WeightedMean> first_;  ///< mean of the first half of each pixel's samples, if halves are kept
 };
 
 }  // namespace trace

@@ -1,6 +1,7 @@
-// A film as bytes and back, so that a render can go on after its process ended: Film::saved, Film::restore.
+// A film as bytes and back, so that a render can continue after its process ended: Film::saved,
+// Film::restore.
 //
-// Numbers stand as they do in memory, so that the same machine, or one like it, goes on with the same bits.
+// Numbers stand as they do in memory, so that the same machine, or one like it, continues with the same bits.
 //
 // The bytes are not trusted, for anyone may have written them. A colour or a weight may be any number, as it
 // may in a render; whatever counts, selects or ends something is checked here, and nothing after this checks
@@ -170,7 +171,7 @@ class FilmState {
   }
 
   /// How many levels of each tile are saved: a wave looks at the corners of those before in all tiles, so
-  /// none is two ahead of another; but while one tile is read others go on.
+  /// none is two ahead of another; but while one tile is read others continue.
   static std::vector<std::size_t> levelsThere(const Film& film) {
     std::vector<std::size_t> levels;
     for (std::size_t i = 0; i < static_cast<std::size_t>(film.tiles()); ++i) {
@@ -270,7 +271,7 @@ class FilmState {
         throw std::runtime_error("its pixels are divided more or less often");
       from.expect(static_cast<std::uint8_t>(film.takesSplats()), "it was made in another way");
       takeCorners(from, film);
-      if (!from.atEnd()) throw std::runtime_error("it goes on where it should end");
+      if (!from.atEnd()) throw std::runtime_error("it continues where it should end");
       return;
     }
     const int asked = film.waves_.back().end;
@@ -300,7 +301,7 @@ class FilmState {
           if (film.keepsHalves()) take(from, film.first_[film.index(x, y)]);
         }
     }
-    if (!from.atEnd()) throw std::runtime_error("it goes on where it should end");
+    if (!from.atEnd()) throw std::runtime_error("it continues where it should end");
   }
 
   static void clear(Film& film, std::vector<Wave> waves) {

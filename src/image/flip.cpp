@@ -85,7 +85,7 @@ Kernel normalized(Kernel k) {
   return k;
 }
 
-/// Beyond its border the picture goes on as it ends.
+/// Beyond its border the picture continues as it ends.
 Layer filteredRows(Layer plane, const Kernel& k) {
   const int radius = static_cast<int>(k.size() / 2), length = plane.width + 2 * radius;
   std::vector<double> row(static_cast<std::size_t>(length));
@@ -119,7 +119,7 @@ struct Sensitivity {
 };
 
 int colorRadius(double pixelsPerDegree) {
-  constexpr double kWidest = 0.04;  // of all channels' b
+  constexpr double kWidest = 0.04;  // largest b of all channels
   return static_cast<int>(std::ceil(3 * std::sqrt(kWidest / (2 * kPi * kPi)) * pixelsPerDegree));
 }
 

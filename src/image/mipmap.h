@@ -29,7 +29,7 @@
 
 namespace trace {
 
-/// What lies beyond the edges of the picture.
+/// The picture beyond its edges.
 enum class Wrap { repeat, clamp, mirror, black };
 constexpr std::array<std::string_view, 4> names(Wrap) { return {"repeat", "clamp", "mirror", "black"}; }
 
@@ -75,7 +75,7 @@ class MipMap {
   /// As the file has it, row 0 at the top.
   Texel texel(int x, int y) const;
 
-  /// What is seen at a finite place. The first lookup that needs the pyramid makes it.
+  /// The colour at a finite point. The first lookup that needs the pyramid makes it.
   Texel at(const Vec2& uv, const Lookup& lookup) const;
   /// Levels of the pyramid, the picture itself and the last texel counted.
   int levels() const;
@@ -127,7 +127,7 @@ class MipMap {
 
   Level base_;
   // Made when first wanted; what they are follows from the picture.
-  mutable Lazy<std::vector<double>> linear_;  ///< of each sample that an integer can be
+  mutable Lazy<std::vector<double>> linear_;  ///< linear value of each sample that an integer can be
   mutable std::array<Lazy<Levels>, 2> pyramids_;
 };
 

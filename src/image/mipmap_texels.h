@@ -9,12 +9,12 @@
 #include "image/srgb.h"
 
 namespace trace {
-namespace {  // of the one file that includes it
+namespace {  // belongs to the one file that includes it
 
 /// Two numbers that processors add and multiply at once.
 using Pair = double __attribute__((vector_size(16)));
 
-/// What bytes stand for that are not decoded.
+/// The values of bytes that are not decoded.
 struct PlainBytes {
   double number[256]{};
   constexpr PlainBytes() {

@@ -11,7 +11,7 @@ Raster oriented(Raster raster, Orientation orientation) {
   if (orientation == Orientation::upright) return raster;
   const int number = static_cast<int>(orientation), w = raster.width, h = raster.height;
   const bool turns = number >= 5;
-  // Of the place (x, y) in the picture: which column and row of the file.
+  // For the place (x, y) in the picture: which column and row of the file.
   const bool fromRight = number == 2 || number == 3 || number == 7 || number == 8;
   const bool fromBottom = number == 3 || number == 4 || number == 6 || number == 7;
   Raster result = raster;

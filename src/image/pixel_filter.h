@@ -41,7 +41,7 @@ class PixelFilter {
 
   /// How far it reaches from the pixel's centre, in pixels.
   Real radius() const { return radius_; }
-  /// What a place so far from the centre, across or down, counts: over all places 1.
+  /// The filter weight at that distance from the centre, across or down: over all places 1.
   Real share(Real away) const;
 
   /// A place relative to the pixel's centre, in pixels, for two numbers from 0 up to 1. They are as dense as
@@ -59,7 +59,7 @@ class PixelFilter {
   Real whole_ = 2;  ///< the integral of the profile
   bool isPixel_;
   std::vector<Real>
-      sums_;  ///< of the filter's absolute value, at equal steps from -radius to radius; ends with 1
+      sums_;  ///< sums of the filter's absolute value, at equal steps from -radius to radius; ends with 1
   std::vector<Real> signs_;  ///< between them
   Real weight_ = 1;          ///< the integral of the absolute value over that of the filter
 };

@@ -14,13 +14,13 @@
 
 namespace trace {
 
-/// What one path brings to a pixel.
+/// The contribution of one path to a pixel.
 struct Splat {
   int x, y;
   Color value;
 };
 
-/// Not for several threads at once, but for those that hold its mutex.
+/// Not for several threads at once, except for those that hold its mutex.
 class SplatPlane {
  public:
   SplatPlane(int width, int height)
@@ -31,8 +31,8 @@ class SplatPlane {
   /// Bytes that a pixel takes here.
   static constexpr std::uint64_t bytesPerPixel() { return sizeof(Sum); }
 
-  /// What so many paths bring together. A value that is not finite does not count; one beyond kMost counts as
-  /// that.
+  /// The contribution of that many paths together. A value that is not finite does not count; one beyond
+  /// kMost counts as that.
   void add(std::span<const Splat> splats, std::int64_t paths) {
     paths_ += paths;
     for (const Splat& splat : splats) {
@@ -44,7 +44,7 @@ class SplatPlane {
     }
   }
   std::int64_t paths() const { return paths_; }
-  /// What a path brings to the pixel on the average.
+  /// The mean contribution of a path to the pixel.
   Color mean(int x, int y) const {
     if (paths_ == 0) return Color(0);
     const Sum& sum = sums_[index(x, y)];
@@ -57,9 +57,9 @@ class SplatPlane {
   friend class FilmState;
   __extension__ using Whole = __int128;
   using Sum = std::array<Whole, 3>;
-  static constexpr double kParts = 0x1p40;          ///< of one: what is very dark counts as well
-  static constexpr double kMost = 0x1p50;           ///< of these 2^37 do not overflow
-  static constexpr Whole kLimit = Whole{1} << 126;  ///< of a sum that is read: as much can still be added
+  static constexpr double kParts = 0x1p40;          ///< parts of one: very dark values count as well
+  static constexpr double kMost = 0x1p50;           ///< 2^37 of these do not overflow
+  static constexpr Whole kLimit = Whole{1} << 126;  ///< largest sum that is read: as much can still be added
 
   static Whole parts(double value) {
     return static_cast<Whole>(std::nearbyint(std::clamp(value, -kMost, kMost) * kParts));

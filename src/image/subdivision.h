@@ -43,7 +43,7 @@ struct Subdivision {
   Tile area{0, 0, 0, 0};     ///< that is rendered
   int seamX = 0, seamY = 0;  ///< the first pixel of the second eye's picture; 0: there is none
 
-  int side() const { return 1 << depth; }  ///< of a pixel, in smallest squares
+  int side() const { return 1 << depth; }  ///< side of a pixel, in smallest squares
   bool differ(const Color* const (&corners)[4]) const;
 
   /// The pixels around (x, y) that share corners: those of the area, in the picture of one eye.
@@ -93,7 +93,7 @@ void forEachShare(const Subdivision& rules, int levels, const At& at, const Use&
   divide(rules, levels, at, leaf, [](int, int, int, int) {});
 }
 
-/// What value(Corner) is on the average of the pixel.
+/// The mean of value(Corner) over the pixel.
 template <class At, class Value>
 Color meanOver(const Subdivision& rules, int levels, const At& at, const Value& value) {
   Color sum;

@@ -28,19 +28,10 @@ Value operandsOf(const trace::Scene& scene, const trace::Shape& shape) {
 
 Node nodeOf(const trace::Texture& texture) {
   const trace::TextureNode& from = *texture;
-  Node node("");
+  Node node(std::string(from.model.keyword()));
   if (!from.name.empty()) node.fields.push_back({"name", from.name});
-  trace::match(from.model, [&]<class Model>(const Model& model) {
-    node.keyword = Model::kKeyword;
-    trace::forEachField<Model>([&](const auto& field) {
-      const auto& value = model.*field.member;
-      using Value_ = std::remove_cvref_t<decltype(value)>;
-      if constexpr (std::is_same_v<Value_, trace::Color> || std::is_same_v<Value_, trace::Real>)
-        node.fields.push_back(
-            {std::string(field.keyword), texturedValueOf(from.inputs, field.keyword, value)});
-      else
-        node.fields.push_back({std::string(field.keyword), valueOf(value)});
-    });
+  trace::forEachField(from.model, [&](const auto& field, const auto& value) {
+    node.fields.push_back({std::string(field.keyword), texturedValueOf(from.inputs, field.keyword, value)});
   });
   const trace::TexturePlacement usual;
   trace::forEachField<trace::TexturePlacement>([&](const auto& field) {
@@ -52,16 +43,16 @@ Node nodeOf(const trace::Texture& texture) {
 }
 
 Node nodeOf(const trace::Material& material) {
-  Node node(std::string(keywordOf(material.model)));
+  Node node(std::string(material.model.keyword()));
   if (!material.name.empty()) node.fields.push_back({"name", material.name});
   trace::Material usual;
   usual.model = material.model;
-  std::vector<Field> same;  // of the material's own fields
+  std::vector<Field> same;  // the material's own fields
   trace::forEachField<trace::Material>([&](const auto& field) {
     if (material.*field.member == usual.*field.member && !textureOf(material.textures, field.keyword))
       same.push_back({std::string(field.keyword), false});
   });
-  const auto* phong = std::get_if<trace::Phong>(&material.model);
+  const auto* phong = material.model.as<trace::Phong>();
   forEachValue(material, [&](std::string_view name, Value value) {
     if (phong && phong->mirrorsSpecular && name == "reflective") value = "specular";  // as a file says it
     const bool isUsual =

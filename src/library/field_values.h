@@ -9,9 +9,9 @@
 #include "base/field.h"
 #include "geometry/field_value.h"
 #include "scene/scene.h"
+#include "shading/formula_text.h"
 #include "shading/lights/photometry.h"
-#include "shading/textures/formula.h"
-#include "shading/textures/image_map.h"
+#include "shading/pixels.h"
 #include "traceray/traceray.h"
 
 namespace traceray {
@@ -59,10 +59,12 @@ Value operandsOf(const trace::Scene& scene, const trace::Shape& shape);
 template <class Value_>
 Value texturedValueOf(const std::vector<trace::FieldTexture>& textures, std::string_view field,
                       const Value_& constant) {
-  const trace::Texture* texture = textureOf(textures, field);
-  if (!texture) return valueOf(constant);
-  if (constant == Value_(1)) return nodeOf(*texture);
-  return Node("texture", {{"", nodeOf(*texture)}, {"", valueOf(constant)}});
+  if constexpr (trace::kIsContinuous<Value_>)
+    if (const trace::Texture* texture = textureOf(textures, field)) {
+      if (constant == Value_(1)) return nodeOf(*texture);
+      return Node("texture", {{"", nodeOf(*texture)}, {"", valueOf(constant)}});
+    }
+  return valueOf(constant);
 }
 
 /// Calls visit(keyword, value) for each field of the shape. `scene` has its materials.
@@ -80,26 +82,19 @@ void forEachValue(const trace::Scene& scene, const trace::Shape& shape, Visit&& 
   });
   if (shape.type().ofObjects) visit(std::string_view("objects"), operandsOf(scene, shape));
 }
-/// The same of a struct with a list of fields.
+/// The fields of a struct that lists them.
 template <class Struct, class Visit>
 void forEachValue(const Struct& from, Visit&& visit) {
   trace::forEachField<Struct>([&](const auto& field) { visit(field.keyword, valueOf(from.*field.member)); });
 }
-/// The same of a material: the fields of its model, and its own.
+/// The fields of a material: those of its model, and its own.
 template <class Visit>
 void forEachValue(const trace::Material& material, Visit&& visit) {
-  const auto all = [&]<class Struct>(const Struct& from) {
-    trace::forEachField<Struct>([&](const auto& field) {
-      const auto& value = from.*field.member;
-      using Value_ = std::remove_cvref_t<decltype(value)>;
-      if constexpr (std::is_same_v<Value_, trace::Color> || std::is_same_v<Value_, trace::Real>)
-        visit(field.keyword, texturedValueOf(material.textures, field.keyword, value));
-      else
-        visit(field.keyword, valueOf(value));
-    });
+  const auto one = [&](const auto& field, const auto& value) {
+    visit(field.keyword, texturedValueOf(material.textures, field.keyword, value));
   };
-  trace::match(material.model, all);
-  all(material);
+  trace::forEachField(material.model, one);
+  trace::forEachField(material, one);
 }
 
 /// Infinite numbers stand for no limit, which is what there is without the field.

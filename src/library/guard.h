@@ -1,4 +1,4 @@
-// What the floors below throw, as the one exception of the library.
+// Exceptions of the floors below become the one exception of the library.
 #pragma once
 
 #include <exception>
@@ -17,7 +17,7 @@ std::vector<Problem> problemsOf(std::span<const trace::Message> messages);
 /// Throws it as an Error of the library.
 [[noreturn]] void rethrow(const trace::Error& error);
 
-/// What work() returns; all that it throws is an Error.
+/// The result of work(); everything that it throws becomes an Error.
 template <class Work>
 auto guarded(Work&& work) -> decltype(work()) {
   try {
@@ -28,7 +28,7 @@ auto guarded(Work&& work) -> decltype(work()) {
     rethrow(error);
   } catch (const std::bad_alloc&) {
     throw Error(Error::Kind::limit, "out of memory");
-  } catch (const std::exception& error) {  // of the file system
+  } catch (const std::exception& error) {  // thrown by the file system
     throw Error(Error::Kind::file, error.what());
   }
 }

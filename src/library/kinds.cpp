@@ -63,6 +63,15 @@ void addFields(Kind& kind, const Struct& usual = {}) {
       [&](const auto& field) { kind.fields.push_back(infoOf(field, usual.*field.member)); });
 }
 
+/// The kind of an opaque type, such as a shape, with its defaults.
+template <class Any>
+Kind kindOf(const char* category, const Any& usual) {
+  Kind kind{category, std::string(usual.keyword()), std::string(usual.type().help), {}};
+  trace::forEachField(
+      usual, [&](const auto& field, const auto& value) { kind.fields.push_back(infoOf(field, value)); });
+  return kind;
+}
+
 template <class Struct>
 Kind kindOf(const char* category) {
   Kind kind{category, std::string(Struct::kKeyword), std::string(Struct::kHelp), {}};
@@ -107,11 +116,7 @@ std::string typeOf(trace::Option::Kind kind) {
 std::vector<Kind> kinds() {
   std::vector<Kind> all;
   for (const trace::ShapeType& type : trace::shapeTypes()) {
-    Kind& kind = all.emplace_back(Kind{"shape", std::string(type.keyword), std::string(type.help), {}});
-    const trace::Shape usual(type);
-    trace::forEachField(usual, [&](const trace::AnyField& field, const auto& value) {
-      kind.fields.push_back(infoOf(field, value));
-    });
+    Kind& kind = all.emplace_back(kindOf("shape", trace::Shape(type)));
     const bool listed = std::any_of(kind.fields.begin(), kind.fields.end(),
                                     [](const FieldInfo& field) { return field.type == "objects"; });
     if (type.ofObjects && !listed)
@@ -124,11 +129,10 @@ std::vector<Kind> kinds() {
   }
   trace::forEachType<trace::Light>(
       [&]<class Light>(Light*) { addFields<trace::LightLinks>(all.emplace_back(kindOf<Light>("light"))); });
-  trace::forEachType<trace::MaterialModel>(
-      [&]<class Model>(Model*) { addFields<trace::Material>(all.emplace_back(kindOf<Model>("material"))); });
-  trace::forEachType<trace::TextureModel>([&]<class Model>(Model*) {
-    addFields<trace::TexturePlacement>(all.emplace_back(kindOf<Model>("texture")));
-  });
+  for (const trace::ModelType& type : trace::modelTypes())
+    addFields<trace::Material>(all.emplace_back(kindOf("material", trace::MaterialModel(type))));
+  for (const trace::TextureType& type : trace::textureTypes())
+    addFields<trace::TexturePlacement>(all.emplace_back(kindOf("texture", trace::TextureModel(type))));
   Kind& camera = all.emplace_back(kindOf<trace::Camera>("camera"));
   camera.fields.push_back({.name = "look_at",
                            .type = "vector",

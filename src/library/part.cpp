@@ -85,7 +85,7 @@ void checkInvertible(const trace::Affine& affine) {
         "large or small");
 }
 
-/// What move() does: a sphere so placed, read by the reader.
+/// The transform of move(): a sphere so placed, read by the reader.
 trace::Affine placementOf(const Fields& fields) {
   for (const Field& field : fields)
     if (field.name != "scale" && field.name != "rotate" && field.name != "translate" &&
@@ -117,7 +117,7 @@ void drop(Fields& fields, std::initializer_list<std::string_view> names) {
   });
 }
 
-/// The node that says the same as before but for the fields given, which stand first.
+/// The node that says the same as before except for the given fields, which stand first.
 Node changed(std::string_view keyword, const Fields& given, Fields others) {
   Node node(std::string(keyword), given);
   node.fields.insert(node.fields.end(), others.begin(), others.end());
@@ -144,7 +144,7 @@ std::string PartState::keyword() const {
     case kLight:
       return trace::match(scene.lights[index()].light,
                           [](const auto& light) { return std::string(light.kKeyword); });
-    case kMaterial: return std::string(keywordOf(scene.materials[index()].model));
+    case kMaterial: return std::string(scene.materials[index()].model.keyword());
     case kCamera: return std::string(trace::Camera::kKeyword);
     default: return std::string(trace::Background::kKeyword);
   }

@@ -1,4 +1,4 @@
-// What a Part of the library is: one thing of a scene, and what its fields are read and set by.
+// A Part of the library: one thing of a scene, and the access to its fields.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct PartState {
 
   std::shared_ptr<SceneState> owner;
   Category category = kObject;
-  std::uint64_t id = 0;  ///< of an object or a light; of a material its index
+  std::uint64_t id = 0;  ///< id of an object or a light; index of a material
 
   // As the functions of Part.
   std::string categoryName() const;

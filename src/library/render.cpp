@@ -34,7 +34,7 @@ struct RenderState {
   std::optional<Image> image;
   std::map<std::string, Image> passes;
 
-  /// Linear light as a file of it has it, but for what two eyes see in one place.
+  /// Linear light as a file of it has it, except for what two eyes see in one place.
   const trace::Picture& light() {
     if (!picture) {
       rendered = session.film().picture();

@@ -101,7 +101,7 @@ trace::Scene SceneState::completed() const {
 trace::SceneAt SceneState::sceneAt() const {
   if (!changesWithTime) return nullptr;
   return [text = text, edited = scene](trace::Real seconds) {
-    trace::Messages known;  // they were told when the scene was read
+    trace::Messages known;  // reported when the scene was read
     if (edited == *text->scene) return readScene(text->file, *text->bytes, known, seconds);
     const std::string bytes = writeEdited(*text, edited, text->file, known).files.front().bytes;
     return readScene(text->file, bytes, known, seconds);

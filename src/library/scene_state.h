@@ -1,4 +1,4 @@
-// What a Scene of the library is: a scene of the floors below, and where it came from.
+// A Scene of the library: a scene of the floors below, and its origin.
 #pragma once
 
 #include <cstdint>
@@ -20,10 +20,10 @@ struct SceneState {
   std::vector<std::uint64_t> objectIds, lightIds;
   std::uint64_t nextId = 1;
 
-  /// Of a scene that a program built from nothing: what it says of that on which kind defaults depend.
+  /// The settings on which kind defaults depend, of a scene that a program built from nothing.
   bool isBuilt = false;
   trace::KindGiven given;
-  int nextLine = 1;  ///< of the file "built"
+  int nextLine = 1;  ///< line of the file "built"
 
   std::vector<trace::Choice> choices;  ///< by the program
   std::vector<trace::Message> warnings;
@@ -32,7 +32,7 @@ struct SceneState {
   trace::Real time = 0;                          ///< at which it was read
   bool changesWithTime = false;
 
-  /// Of the files that it names, with a slash at its end; "" of the folder that the program is in.
+  /// The folder of the files that it names, with a slash at its end; "" for the current folder.
   std::string folder() const { return scene.file.substr(0, scene.file.find_last_of('/') + 1); }
   /// Gives ids to objects and lights that are new, at the end of their lists.
   void nameNew();

@@ -53,7 +53,7 @@ std::string listText(const Value::List& list, const char* open, const char* betw
 
 std::string plainText(const Value& value) { return value.inLanguage(); }
 
-/// What stands behind `name = `.
+/// The text after `name = `.
 std::string fieldText(const Field& field) {
   if (field.name == "material") return materialText(field.value);
   if (field.name == "materials" && field.value.isList())

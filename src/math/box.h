@@ -11,7 +11,7 @@ struct Box3 {
   Vec3 high{-kInfinity, -kInfinity, -kInfinity};
 
   bool empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
-  /// Goes on for ever on some side.
+  /// Infinite on some side.
   bool unbounded() const { return !empty() && !(isFinite(low) && isFinite(high)); }
   Vec3 center() const { return low * 0.5 + high * 0.5; }
   Vec3 size() const { return empty() ? Vec3{} : high - low; }

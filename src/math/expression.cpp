@@ -272,7 +272,7 @@ Vec3 Expression::gradientAt(const Vec3& p) const {
           along<Real>(p, {0, 0, 1}, 0).slope};
 }
 
-/// What intervals make of a single point is a bound of the rounding.
+/// The interval of a single point bounds the rounding.
 Real Expression::errorAt(const Vec3& p) const {
   const Interval value = along<Interval>(p, {}, 0.0).value;
   const Real error = value.high - value.low;

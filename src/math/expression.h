@@ -52,7 +52,7 @@ class Expression {
     log,
     sin,
     cos,
-    tan,  // of one
+    tan,  // the last function of one argument
     add,
     subtract,
     multiply,
@@ -60,7 +60,7 @@ class Expression {
     power,
     root,
     min,
-    max,  // of two; power: whole exponent; root: real
+    max,  // functions of two arguments; power: whole exponent; root: real
   };
   struct Step {
     Do what = Do::number;

@@ -15,7 +15,7 @@ Real summed(const FractalSum& f, std::array<Real, N> p, Real width, const std::i
   // Each octave is moved, so that the places where all noise is 0 lie neither on each other nor on the faces
   // of objects.
   constexpr Real kMoved[]{0.3183, 0.5707, 0.7321, 0.4142};
-  constexpr Real kFadeFrom = 0.25, kFadeTo = 0.5;  // of a wave in a pixel
+  constexpr Real kFadeFrom = 0.25, kFadeTo = 0.5;  // fade from and fade to of a wave in a pixel
   for (int axis = 0; axis < N; ++axis) p[axis] += kMoved[axis];
   std::int64_t repeats[N] = {};
   if (kPeriodic) std::copy(period, period + N, repeats);

@@ -25,7 +25,7 @@ struct FractalSum {
   static constexpr auto fields() {
     return Fields{
         Field{"sum", &FractalSum::sum, "", -kNoLimit, kNoLimit,
-              "of noise itself, of its magnitude, or with ridges where it is 0"},
+              "sum of noise itself, of its magnitude, or with ridges where it is 0"},
         Field{"octaves", &FractalSum::octaves, "", 1, kMostOctaves, "how many are added, each finer"},
         Field{"lacunarity", &FractalSum::lacunarity, "", 1, 16, "how much finer each octave is"},
         Field{"gain", &FractalSum::gain, "", 0, 1, "how much weaker each octave is"},

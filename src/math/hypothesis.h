@@ -9,7 +9,7 @@ namespace trace {
 
 /// Values of one kind.
 struct Moments {
-  double mean = 0, variance = 0;  ///< of a value, estimated
+  double mean = 0, variance = 0;  ///< mean and variance of a value, estimated
   double count = 0;
 };
 Moments momentsOf(std::span<const double> values);

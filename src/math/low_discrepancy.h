@@ -61,7 +61,7 @@ constexpr Vec2 sobolPoint(std::uint32_t i, std::uint64_t seed) {
           reversedBits(owenScrambledReversed(sobolSecondReversed(k), mixBits(seed ^ 3))) * 0x1p-32};
 }
 
-/// What Sobol's third and fourth dimension give for each byte of a point's number, bits reversed: with
+/// The bits of Sobol's third and fourth dimension for each byte of a point's number, bits reversed: with
 /// primitive polynomials and first numbers by Joe and Kuo (2008).
 struct SobolBytes {
   std::uint32_t of[2][4][256];

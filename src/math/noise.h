@@ -49,7 +49,7 @@ struct Lattice {
   }
 };
 
-/// What a lattice point adds to the bits of its cell, along an axis.
+/// The bits that a lattice point adds to those of its cell, along an axis.
 constexpr std::uint32_t axisBits(std::int64_t i, int axis) {
   constexpr std::uint32_t kOdd[]{0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du, 0x27d4eb2fu};
   return static_cast<std::uint32_t>(i) * kOdd[axis];

@@ -1,4 +1,4 @@
-// Gradient noise where it is worked out: for the files that compile it into their loops.
+// Gradient noise where it is computed: for the files that compile it into their loops.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ constexpr auto slopes() {
 template <int N>
 inline constexpr auto kSlopes = slopes<N>();
 
-/// The two corners of an edge along x, which are worked out together.
+/// The two corners of an edge along x, which are computed together.
 typedef Real Pair __attribute__((vector_size(2 * sizeof(Real))));
 
 /// gradientNoise() (math/noise.h); `period` is looked at only if it is kPeriodic.

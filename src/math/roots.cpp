@@ -8,7 +8,7 @@ namespace {
 constexpr std::size_t kLeastDegree = 4;  // below, formulas are faster
 
 /// A polynomial over [a, b] as its ordinates in the Bernstein basis: it lies between them, and its sign
-/// changes at most as often as theirs do, and as often but for an even number (Descartes' rule of signs).
+/// changes at most as often as theirs do, and as often except for an even number (Descartes' rule of signs).
 template <std::size_t n>
 struct Bernstein {
   Real a, b;

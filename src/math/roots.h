@@ -65,7 +65,7 @@ struct SignWalk {
   Real at = 0;            ///< where the walk has come
   bool negative = false;  ///< the function's sign there
 
-  /// Goes on to t, where the sign is known. If it is another, calls visit(root, negativeBefore);
+  /// Continues to t, where the sign is known. If it is another, calls visit(root, negativeBefore);
   /// root(a, b, negativeAtA) finds the place, unless the walk does not move.
   template <class Root, class Visit>
   void to(Real t, bool negativeAtT, Root&& root, Visit&& visit) {
@@ -74,8 +74,8 @@ struct SignWalk {
     negative = negativeAtT;
   }
 
-  /// Goes on to t by the signs of f, which returns a Jet. Where 0 lies between, it is looked at too: on which
-  /// side of a surface a ray starts is decided at its very origin.
+  /// Continues to t by the signs of f, which returns a Jet. Where 0 lies between, it is looked at too: on
+  /// which side of a surface a ray starts is decided at its very origin.
   template <class F, class Visit>
   void to(Real t, F&& f, Visit&& visit) {
     const auto root = [&](Real a, Real b, bool negativeAtA) { return rootBetween(f, a, b, negativeAtA); };

@@ -10,7 +10,7 @@
 namespace trace {
 
 struct Agreement {
-  std::vector<double> p;        ///< of each tile, row by row
+  std::vector<double> p;        ///< p of each tile, row by row
   double uniform = 0;           ///< the p-value of their being spread evenly (Kolmogorov and Smirnov)
   double least = 0;             ///< the p-value of the smallest of them being that small (Sidak 1967)
   double meanA = 0, meanB = 0;  ///< light of the pictures

@@ -4,8 +4,10 @@
 // alike. A picture of normals says them itself (shading/normal_map.h).
 #include "math/perpendicular.h"
 #include "render/world.h"
+#include "shading/materials/principled.h"
 #include "shading/normal_map.h"
 #include "shading/optics.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {
@@ -36,7 +38,7 @@ Vec3 saneNormal(const Vec3& plain, const Vec3& bent, const Vec3& direction, cons
 
 /// Null unless the texture is a picture of normals.
 const ImageMap* normalMap(const Texture& texture) {
-  const auto* map = std::get_if<ImageMap>(&texture->model);
+  const auto* map = texture->model.as<ImageMap>();
   return map && map->relief != Relief::heights ? map : nullptr;
 }
 
@@ -63,7 +65,7 @@ struct Heights {
 };
 
 const Principled* apart(const Material* material) {
-  const auto* model = material ? std::get_if<Principled>(&material->model) : nullptr;
+  const auto* model = material ? material->model.as<Principled>() : nullptr;
   return model && model->clearcoat > 0 && model->clearcoatApart ? model : nullptr;
 }
 
@@ -121,7 +123,7 @@ Vec3 World::bentNormal(const Ray& ray, const Hit& hit, Bent what) const {
   const Real height = heights.at(here);
   Vec3 gradient;
   for (const Vec3& tangent : {first, cross(normal, first)}) {
-    const Vec3 across = linear(out, tangent);  // of unit length in the object
+    const Vec3 across = linear(out, tangent);  // across of unit length in the object
     const Real step = size * 0x1p-10 / length(across);
     const auto moved = [&](const Vec2& uv, const SurfaceSlopes& by) {
       return Vec2{uv.x + dot(by.u, across) * step, uv.y + dot(by.v, across) * step};

@@ -1,4 +1,4 @@
-// What is told of a chain, move by move.
+// The record of a chain, move by move.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct ChainMove {
   Real chance = 1;   ///< with which the move is made
   bool made = true;
 };
-/// Takes the sample that is offered once more, by who wants to see its rays.
+/// Takes the sample that is offered once more, by those who record its rays.
 using OfferedSample = std::function<Splat(PixelTracer&)>;
 /// Sees each move before it is made or taken back.
 using ChainWatch = std::function<void(const ChainMove&, const OfferedSample&)>;

@@ -12,7 +12,7 @@
 namespace trace {
 
 struct Explanation {
-  RayTree tree;                ///< of the sample asked for
+  RayTree tree;                ///< tree of the requested sample
   std::vector<Color> samples;  ///< all of the pixel's, in order; those that are not finite do not count
   bool settled = false;        ///< there are no more of them, because the noise target was met
   std::vector<Vec2> corners;  ///< where each lies in the pixel, from its lower left corner, if it was divided
@@ -26,7 +26,7 @@ struct Explanation {
 /// asked after every sample; once it is true what has been found so far is returned.
 Explanation explain(std::span<const Moment> moments, const Settings& settings, const Size& size, int x, int y,
                     int sample, const std::function<bool()>& cancelled = {});
-/// The same of one moment.
+/// Explains a pixel at one moment.
 Explanation explain(const World& world, const Integrator& integrator, const Settings& settings,
                     const Size& size, int x, int y, int sample);
 

@@ -14,7 +14,7 @@ constexpr Real kFarDown = 30;
 }  // namespace
 
 Real Fog::densityAt(const Vec3& point) const {
-  constexpr Real kMost = 50;  // of the exponent, far below
+  constexpr Real kMost = 50;  // largest exponent, far below
   return height_ > 0 ? density_ * std::exp(std::min(-point.y / height_, kMost)) : density_;
 }
 
@@ -50,7 +50,7 @@ void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interface
   const Fog fog(settings);
   const World& world = tracer.world();
   if (fog.none() || !isInOpenAir(inside, world)) return;
-  const Real stays = -std::expm1(-fog.depth(ray, t));  // of what comes along the ray
+  const Real stays = -std::expm1(-fog.depth(ray, t));  // scattered fraction along the ray
   if (!(stays > 0)) return;
   sum.cover(Term::Kind::fog, stays);
   const Color scatters = settings.fogColor * stays;

@@ -20,11 +20,11 @@ class Fog {
         forward_(std::clamp(settings.fogForward, -kMostForward, kMostForward)) {}
 
   bool none() const { return !(density_ > 0); }
-  /// How much of it lies along so much of the ray: what passes is exp(-depth). With a height, it thins out
-  /// upward, along y.
+  /// How much of it lies along so much of the ray: the transmittance is exp(-depth). With a height, it thins
+  /// out upward, along y.
   Real depth(const Ray& ray, Real t) const;
   Real passes(const Ray& ray, Real t) const { return std::exp(-depth(ray, t)); }
-  /// What is left of a light that far away along the ray. Light from infinity is what arrives, and loses
+  /// The transmittance to a light that far away along the ray. Light from infinity is what arrives, and loses
   /// none.
   Real left(const Ray& toLight, Real distance) const {
     return distance < kInfinity ? passes(toLight, distance) : 1;
@@ -32,7 +32,7 @@ class Fog {
   /// The distance along the ray at which that depth is reached; may be infinite.
   Real distance(const Ray& ray, Real depth) const;
   Real forward() const { return forward_; }  ///< the mean cosine of what is scattered
-  /// What is lost along a unit of length there.
+  /// The extinction per unit of length there.
   Real densityAt(const Vec3& point) const;
 
  private:
@@ -47,12 +47,12 @@ inline bool isInOpenAir(const Interfaces& inside, const World& world) {
   return object == Filling::kAir || !world.solid(object);
 }
 
-/// Covers what has been summed with the fog before it: what passes along the ray up to t, which may be
+/// Covers what has been summed with the fog before it: the transmittance along the ray up to t, which may be
 /// infinite.
 void coverWithFog(Gather& sum, const Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside);
 /// Covers what has been summed with the fog before it, and adds the light of the scene's lights in that fog:
 /// of the ray that ran on to t, which may be infinite, in `inside`. `ambient` is light from everywhere;
-/// `lamps`, if any, are objects that shine.
+/// `lamps`, if any, are emissive objects.
 void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
             const Color& ambient, const Lamps* lamps, const Sampler& sampler);
 

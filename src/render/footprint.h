@@ -1,4 +1,4 @@
-// How the footprint of a ray goes on from the surface that it meets. Kept out of line, since most renders
+// How the footprint of a ray continues from the surface that it meets. Kept out of line, since most renders
 // want none.
 #pragma once
 

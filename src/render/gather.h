@@ -27,7 +27,7 @@ class Gather {
     if (Tracer::recorded(node_)) tracer_.record(node_, {kind, factor, value});
   }
   void add(Term::Kind kind, const Color& value) { add(kind, Color(1), value); }
-  /// The same of what was chosen by chance.
+  /// Adds a value that was chosen at random.
   void add(Term::Kind kind, const Color& factor, const Color& value, const ChanceTerm& chance) {
     sum_ += factor * value;
     if (Tracer::recorded(node_)) tracer_.record(node_, {kind, factor, value, Tracer::kNoNode, {}, chance});
@@ -51,7 +51,7 @@ class Gather {
     tracer_.record(node_, term);
   }
 
-  /// The same of what air or a medium scatters along the ray.
+  /// Adds light that air or a medium scatters along the ray.
   void addScattered(std::size_t light, const Color& factor, const Color& passed,
                     const std::optional<MediumTerm>& medium) {
     Term term{medium ? Term::Kind::medium : Term::Kind::fog, factor, passed};
@@ -66,39 +66,39 @@ class Gather {
     stop(MetLight{lamp.light, lamp.seen.t});
   }
 
-  /// The same of a path that was put together.
+  /// Adds the value of a bidirectional path.
   void addWay(Term::Kind kind, const Color& factor, const Color& value, const ConnectionTerm& connection) {
     sum_ += factor * value;
     if (Tracer::recorded(node_))
       tracer_.record(node_, {kind, factor, value, Tracer::kNoNode, {}, {}, {}, connection});
   }
 
-  /// The same of an estimate by photons.
+  /// Adds an estimate by photons.
   void add(Term::Kind kind, const Color& value, const PhotonTerm& photons) {
     sum_ += value;
     if (Tracer::recorded(node_))
       tracer_.record(node_, {kind, Color(1), value, Tracer::kNoNode, {}, {}, photons});
   }
 
-  /// The same of light that was worked out before.
+  /// Adds light that was computed before.
   void add(const Color& factor, const Color& value, const CacheTerm& cache) {
     add(Term{Term::Kind::irradiance, factor, value, Tracer::kNoNode, {}, {}, {}, {}, {}, {}, cache});
   }
 
-  /// sum += factor * value of a medium, whose light may be chosen by chance.
+  /// sum += factor * value of a medium, whose light may be chosen at random.
   void add(const Color& factor, const Color& value, const MediumTerm& medium,
            const std::optional<ChanceTerm>& chance = {}) {
     add(Term{Term::Kind::medium, factor, value, Tracer::kNoNode, {}, chance, {}, {}, medium});
   }
-  /// The same of an estimate by photons.
+  /// Adds an estimate by photons.
   void add(const Color& factor, const Color& value, const MediumTerm& medium, const PhotonTerm& photons) {
     add(Term{Term::Kind::medium, factor, value, Tracer::kNoNode, {}, {}, photons, {}, medium});
   }
-  /// The same of light that comes out of a body; it was cast last where it goes in.
+  /// Adds light that leaves a translucent object; it was cast last where it enters.
   void add(const Color& factor, const Color& value, const BodyTerm& body) {
     add(Term{Term::Kind::subsurface, factor, value, Tracer::kNoNode, {}, {}, {}, {}, {}, body});
   }
-  /// What has been added counts so much, behind a medium.
+  /// Scales the terms added so far, behind a medium.
   void dim(const Color& passes, const MediumTerm& medium) { add(Color(1) + passes * -1, sum_ * -1, medium); }
 
   /// Something covers so much of what has been added.
@@ -120,7 +120,7 @@ class Gather {
   void note(const std::optional<Vec3>& raised) {
     if (Tracer::recorded(node_)) tracer_.record(node_, raised);
   }
-  /// Notes why a ray is not sent on: one of RayEnd.
+  /// Notes why a ray is not continued: one of RayEnd.
   template <class Why>
   void stop(const Why& why) {
     if (Tracer::recorded(node_)) tracer_.record(node_, RayEnd(why));

@@ -1,4 +1,4 @@
-// What a ray met, as an integrator sees it.
+// A hit point, as an integrator sees it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class World;
 struct Found;
 
 struct Hit {
-  /// What `ray` found in the world.
+  /// The hit of `ray` in the world.
   Hit(const World& world, const Ray& ray, const Found& found);
 
   /// A ray from here in that direction.
@@ -34,11 +34,11 @@ struct Hit {
 
   Real t;
   std::uint32_t object;  ///< index into Scene::objects
-  std::uint64_t part;    ///< of the object: the crossing's part; of a mesh: the triangle
+  std::uint64_t part;    ///< the crossing's part of the object, or the triangle of a mesh
   SurfacePoint surface;
   Vec3 coat;              ///< the normal of a clear coat, where that is bent apart; otherwise 0
   Real opacity = 1;       ///< share of the surface that is there
-  MaterialMix materials;  ///< of that share
+  MaterialMix materials;  ///< materials of that share
   bool leaving;           ///< the ray comes from inside: it runs along the true normal
   bool twoSided;          ///< the surface is shaded from both sides
   bool convex;            ///< the object is
@@ -56,6 +56,7 @@ class PlaceBsdf {
   void replace(Bsdf bsdf) { own_ = std::move(bsdf); }
 
   const Bsdf& operator*() const { return own_ ? *own_ : *only_; }
+  const Bsdf* operator->() const { return &**this; }
 
  private:
   const Bsdf* only_ = nullptr;

@@ -28,10 +28,10 @@ class IlluminationMap {
   /// A place on a map.
   struct Place {
     std::uint32_t object;
-    std::uint64_t part;  ///< of a mesh 0
+    std::uint64_t part;  ///< part of the object; 0 for a mesh
     bool inward;         ///< the side seen is not where u, v and the normal are right-handed
     Vec2 uv;
-    Real area;  ///< of the surface, where u and v grow by 1
+    Real area;  ///< area of the surface, where u and v grow by 1
     auto surface() const { return std::tuple(object, part, inward); }
   };
   /// Where on a map the place is that a ray has met, on the side it comes from.
@@ -39,7 +39,7 @@ class IlluminationMap {
 
   /// `power` falls there.
   void add(const Place& place, const Color& power);
-  /// What falls there, per area.
+  /// The light that arrives there, per area.
   Color at(const Place& place) const;
 
  private:

@@ -26,22 +26,20 @@ std::unique_ptr<Integrator> makeForChains(const Settings& settings) {
 constexpr std::array kIntegrators{
     IntegratorRow{IntegratorKind::whitted, "whitted", "recursive ray tracing: shadows, mirrors and glass",
                   make<Whitted>},
-    IntegratorRow{IntegratorKind::path, "path", "paths by chance: light that bounces between surfaces",
+    IntegratorRow{IntegratorKind::path, "path", "path tracing: light that bounces between surfaces",
                   make<PathTracer, PathTracer::Light::bounced>},
-    IntegratorRow{IntegratorKind::direct, "direct", "path without bounces: lights and lamps straight",
+    IntegratorRow{IntegratorKind::direct, "direct", "path without bounces: direct light",
                   make<PathTracer, PathTracer::Light::straight>},
     IntegratorRow{IntegratorKind::bdpt, "bdpt", "path, joined with paths that start at lights",
                   make<Bidirectional>, false, true},
-    IntegratorRow{IntegratorKind::mlt, "mlt", "path, led by chains that look around where light was found",
+    IntegratorRow{IntegratorKind::mlt, "mlt", "Metropolis light transport: Markov chains explore paths",
                   makeForChains, true, true},
-    IntegratorRow{IntegratorKind::photon, "photon",
-                  "path with one bounce, and photons for the light that it meets",
+    IntegratorRow{IntegratorKind::photon, "photon", "photon maps",
                   make<PathTracer, PathTracer::Light::photons>},
-    IntegratorRow{IntegratorKind::occlusion, "occlusion", "how open every place is, as of white clay",
+    IntegratorRow{IntegratorKind::occlusion, "occlusion", "ambient occlusion, in white clay",
                   make<Occlusion>},
     IntegratorRow{IntegratorKind::normals, "normals", "where surfaces face, as colours", make<Normals>},
-    IntegratorRow{IntegratorKind::cost, "cost", "how much work whitted has with each place, as colours",
-                  make<Cost>},
+    IntegratorRow{IntegratorKind::cost, "cost", "the work of whitted for each pixel, as colours", make<Cost>},
 };
 
 }  // namespace

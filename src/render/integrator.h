@@ -28,9 +28,9 @@ struct CameraRay {
   std::optional<Hit> hit;
   Interfaces inside;                             ///< what the ray is in when it gets there
   Real weight = 1;                               ///< what its radiance counts in the mean of the pixel
-  const Differentials* differentials = nullptr;  ///< of the ray; null where World wants no footprints
+  const Differentials* differentials = nullptr;  ///< null if no footprints are needed
   Real ink = 0;                                  ///< how much of the sample is an outline, which is black
-  std::vector<Thrown>* thrown = nullptr;         ///< takes what lands elsewhere; null where nobody wants that
+  std::vector<Thrown>* thrown = nullptr;         ///< takes what lands elsewhere; null if not needed
 };
 
 /// There is one for a render; it never changes once it is prepared.
@@ -38,22 +38,22 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  /// What has to be worked out before the first ray, such as a photon map. `job` tells how far it is and may
+  /// Prepares the integrator before the first ray, such as a photon map. `job` tells how far it is and may
   /// be cancelled.
   virtual void prepare(const World&, const Settings&, Job&) {}
 
-  /// It looks at Hit::opacity; for others chance decides whether a ray meets what is there in part.
+  /// It looks at Hit::opacity; for others it is random whether a ray hits a partly open surface.
   virtual bool weighsHoles() const { return false; }
 
   /// The radiance that arrives along the camera ray, which is the one cast last.
   virtual Color radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const = 0;
 
-  /// What the sample throws at other places of the picture, to the same bits as radiance() with
+  /// Adds the light of the sample at other pixels of the picture, to the same bits as radiance() with
   /// CameraRay::thrown, without the path from the camera.
   virtual void throwLight(Tracer&, const Sampler&, std::vector<Thrown>&) const {}
 };
 
-/// What a camera ray looks at: the world at one moment, and the integrator that was prepared for it. A render
+/// The target of a camera ray: the world at one moment, and the integrator that was prepared for it. A render
 /// has one, or several while the shutter is open.
 struct Moment {
   const World* world;

@@ -5,6 +5,8 @@
 #include "render/light_choice.h"
 #include "render/media.h"
 #include "shading/fresnel.h"
+#include "shading/materials/marschner.h"
+#include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -71,8 +73,12 @@ bool Interaction::spreads(const Subsurface& said) const {
   return !(least * size * kKnown > 1);
 }
 
+bool Interaction::sendsEvenly() const {
+  return scatters(*bsdf_) && !isGlossy(*bsdf_) && !bsdf_->is<MarschnerBsdf>();
+}
+
 std::optional<SubsurfaceBsdf> Interaction::takeBody() {
-  const auto* whole = std::get_if<SubsurfaceBsdf>(&*bsdf_);
+  const auto* whole = bsdf_->as<SubsurfaceBsdf>();
   if (!whole || !spreads(whole->said)) return {};
   const SubsurfaceBsdf body = *whole;
   bsdf_.replace(body.only(SubsurfaceBsdf::Part::surface));
@@ -80,8 +86,7 @@ std::optional<SubsurfaceBsdf> Interaction::takeBody() {
 }
 
 void Interaction::letIn() {
-  if (const auto* whole = std::get_if<SubsurfaceBsdf>(&*bsdf_))
-    bsdf_.replace(whole->only(SubsurfaceBsdf::Part::exit));
+  if (const auto* whole = bsdf_->as<SubsurfaceBsdf>()) bsdf_.replace(whole->only(SubsurfaceBsdf::Part::exit));
   coat = 0;
 }
 
@@ -152,7 +157,7 @@ void Interaction::addOpen(Gather& sum, Term::Kind kind, const Color& factor, int
 
 namespace {
 
-/// How high above the place rays start that look for the surface around it, in parts of the distance.
+/// How high above the place rays start that look for the surface around it, as a fraction of the distance.
 constexpr Real kLookDown = 0.4;
 
 /// The direction as the rotation takes it that turns one unit normal to another, which is not opposite.
@@ -163,10 +168,10 @@ Vec3 turnedAlong(const Vec3& direction, const Vec3& from, const Vec3& to) {
 
 }  // namespace
 
-/// Whether a ray from so high above the place down to a point of the plane there meets the surface as it goes
-/// on from the place: about there, and bent no more than PhotonMap takes for one surface.
+/// Whether a ray from so high above the place down to a point of the plane there meets the surface as
+/// it continues from the place: about there, and bent no more than PhotonMap takes for one surface.
 bool Interaction::continues(const Vec3& to, Real height) const {
-  constexpr Real kNearest = 0.7, kFarthest = 2, kSteepest = 0.045;  // in parts of the distance
+  constexpr Real kNearest = 0.7, kFarthest = 2, kSteepest = 0.045;  // as a fraction of the distance
   const Vec3 up = trueNormal(), from = hit.surface.point + up * height;
   const Ray ray{from, normalize(to - from)};
   const std::optional<Found> found = tracer.look(ray, RayKind::bounce);

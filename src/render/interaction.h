@@ -1,5 +1,6 @@
-// What an integrator works out where a ray meets a surface: the normal that light sees, what is on both sides
-// and the weights of the rays that go on in one direction only. It stands here once for all integrators.
+// The data of a ray's hit on a surface that integrators share: the normal that light sees, what is on both
+// sides and the weights of the rays that continue in one direction only. It stands here once for all
+// integrators.
 #pragma once
 
 #include <optional>
@@ -12,6 +13,9 @@
 #include "shading/dispersion.h"
 
 namespace trace {
+
+struct Subsurface;
+struct SubsurfaceBsdf;
 
 class Interaction {
  public:
@@ -70,9 +74,7 @@ class Interaction {
   /// The share of such a disk that does, by the kernel of PhotonMap::Near::perArea().
   Real shareOfDisk(Real radius, Sampler numbers) const;
   /// Whether it scatters, without a lobe that is nearly a mirror, as hair has some.
-  bool sendsEvenly() const {
-    return scatters(*bsdf_) && !isGlossy(*bsdf_) && !std::holds_alternative<MarschnerBsdf>(*bsdf_);
-  }
+  bool sendsEvenly() const;
   /// Adds the light of photons that is scattered to where the ray comes from: the diffuse part of it, or all.
   /// `share` is how much of their disk lies on the surface. Photons that a surface less than `apart` away has
   /// sent do not count.
@@ -81,9 +83,9 @@ class Interaction {
   /// Adds what mirrors and glass throw there, of which a map holds all.
   void addCaustics(Gather& sum, const PhotonMap& photons, const Sampler& numbers) const;
 
-  // --- rays that go on in one direction ---
+  // --- rays that continue in one direction ---
 
-  /// What is refracted: light of all colours, or a fan of wavelengths where this surface begins to split it;
+  /// The refracted rays: light of all colours, or a fan of wavelengths where this surface begins to split it;
   /// nothing if it sends no ray through.
   std::span<const SpectralShare> shares() const {
     return !fan_.empty() ? std::span(fan_) : std::span(&whole_, transmits ? 1 : 0);
@@ -96,7 +98,7 @@ class Interaction {
   /// Where it goes, and how the index changes there; nothing at total reflection.
   std::optional<Vec3> through(const SpectralShare& share) const;
   Real ratio(const SpectralShare& share) const;
-  /// What a ray is in on the other side.
+  /// The media of a ray on the other side.
   Interfaces behind() const;
 
   Tracer& tracer;
@@ -111,7 +113,7 @@ class Interaction {
   const WhittedTerms& material;
   Vec3 normal;      ///< unit: to the side that light is seen on
   Frame frame;      ///< around it
-  Real cosine;      ///< of the ray and the normal
+  Real cosine;      ///< cosine of the ray and the normal
   bool transmits;   ///< it sends a ray through
   bool straight;    ///< ... which is not bent
   Real coat;        ///< the share that a varnish mirrors
@@ -123,7 +125,7 @@ class Interaction {
   Real mirroredShare(const SpectralShare& share) const;
   [[gnu::noinline]] void raise(bool turned);
 
-  /// What fills the body, and both sides of its surface.
+  /// The medium inside the object, and both sides of its surface.
   struct Boundary {
     Filling body;
     Sides sides;

@@ -1,4 +1,4 @@
-// What a ray is inside of, as far as refraction and absorption ask.
+// The dielectric stack of a ray, as far as refraction and absorption ask.
 #pragma once
 
 #include <cstdint>
@@ -11,14 +11,14 @@
 
 namespace trace {
 
-/// What fills a body, or what is around all bodies.
+/// The interior of an object, or the air around all objects.
 struct Filling {
   static constexpr std::uint32_t kAir = std::numeric_limits<std::uint32_t>::max();
 
   std::uint32_t object = kAir;  ///< index into Scene::objects
   Real priority = 0;
-  Real index = 1;   ///< of refraction, at the line d
-  Color passes{1};  ///< what passes of light along a unit of length: Beer's law
+  Real index = 1;   ///< index of refraction, at the line d
+  Color passes{1};  ///< the transmittance along a unit of length: Beer's law
   Dispersion dispersion{};
   /// Bodies of one kind are of the same material, its name and priority aside.
   std::uint32_t kind = kAir;
@@ -33,7 +33,7 @@ struct Sides {
   bool alike() const { return before.object == behind.object || before.kind == behind.kind; }
 };
 
-/// Indices of refraction at a surface: on the ray's side and on the other. What they belong to is told where
+/// Indices of refraction at a surface: on the ray's side and on the other. What they belong to is known where
 /// bodies may be nested.
 struct Indices {
   Real before = 1, behind = 1;
@@ -52,7 +52,7 @@ struct Indices {
         priorityBehind(sides.behind.priority) {}
 };
 
-/// A part of a path's state: the bodies of glass that the ray is in, in the order in which it entered them.
+/// A part of a path's state: the glass objects that the ray is in, in the order in which it entered them.
 ///
 /// The one of the highest priority fills the place; of equals it is the one entered last (Schmidt and Budge,
 /// Simple Nested Dielectrics in Ray Traced Images, 2002). Surfaces at which that does not change are no
@@ -65,16 +65,16 @@ class Interfaces {
   explicit Interfaces(Real air = 1, bool nested = false) : nested_(nested) { air_ = around_.index = air; }
 
   bool nested() const { return nested_; }
-  /// What the ray runs in.
+  /// The medium that the ray is in.
   const Filling& around() const { return around_; }
-  /// What of light passes along so much of it: Beer's law.
+  /// The transmittance along that distance: Beer's law.
   Color passed(Real t) const { return around_.passes == Color(1) ? Color(1) : pow(around_.passes, t); }
   /// The wavelength of the light, in nanometres; 0 for light of all colours.
   Real wavelength = 0;
 
   /// The two sides of the surface of a body, which the ray leaves or enters. `encloses`: the body is solid.
   Sides at(bool leaving, const Filling& body, bool encloses) const;
-  /// What the ray runs in behind that surface.
+  /// The medium of the ray behind that surface.
   void pass(bool leaving, const Filling& body, bool encloses);
   /// The ray starts inside the body. Outer bodies come before inner ones.
   void startInside(const Filling& body) { pass(false, body, true); }

@@ -66,7 +66,7 @@ IrradianceRecord HemisphereCells::record(const Vec3& point, const Vec3& x, const
 
 IrradianceCache::IrradianceCache(const Box3& box, Real error)
     : middle_(box.center()), half_(maxComponent(box.size()) / 2), error_(std::max(error, 1e-3)), nodes_(1) {
-  constexpr Real kLeast = 1.0 / 40, kMost = 1.0 / 4;  // of the scene's size
+  constexpr Real kLeast = 1.0 / 40, kMost = 1.0 / 4;  // relative to the scene's size
   const Real size = length(box.size());
   least_ = kLeast * size;
   most_ = kMost * size;
@@ -120,7 +120,7 @@ std::optional<IrradianceCache::Blend> IrradianceCache::at(const Vec3& point, con
       const Real alike = dot(normal, record.normal);
       const Real away = length(way) / record.distance + std::sqrt(std::max(0.0, 1 - alike));
       if (!(away < error_)) continue;
-      // What lies in front of the place sees other things.
+      // A point in front of the place sees other things.
       constexpr Real kBehind = 0.05;
       if (dot(way, normal + record.normal) / 2 < -kBehind * error_ * record.distance) continue;
       const Real weight = 1 / std::max(away, 1e-9) - 1 / error_;  // none at its rim, so that no edge shows

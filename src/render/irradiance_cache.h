@@ -1,4 +1,4 @@
-// Light from all around that was worked out at some places, and is blended between them: Ward, Rubinstein and
+// Light from all around that was computed at some places, and is blended between them: Ward, Rubinstein and
 // Clear, A Ray Tracing Solution for Diffuse Interreflection, SIGGRAPH 1988; with the gradients of Ward and
 // Heckbert, Irradiance Gradients, Eurographics Workshop on Rendering 1992.
 //
@@ -28,7 +28,7 @@ struct ColorGradient {
   Color along(const Vec3& v) const { return {dot(r, v), dot(g, v), dot(b, v)}; }
 };
 
-/// What arrives at a place.
+/// The irradiance at a point.
 struct IrradianceRecord {
   Vec3 point, normal;
   Color light;            ///< the irradiance over pi: the mean radiance, by the cosine
@@ -44,7 +44,7 @@ class HemisphereCells {
   int count() const { return across_ * around_; }
   /// Where in cell n the two numbers from 0 up to 1 lie: z along the normal.
   Vec3 direction(int n, const Vec2& u) const;
-  /// What was seen in a cell.
+  /// The radiance seen in a cell.
   struct Seen {
     Color light;
     Real distance;
@@ -81,7 +81,7 @@ class IrradianceCache {
   };
   void insert(std::size_t node, const Vec3& middle, Real half, std::uint32_t record, Real reach);
 
-  Vec3 middle_;  ///< of the octree's cube
+  Vec3 middle_;  ///< middle of the octree's cube
   Real half_ = 0, error_ = 0;
   Real least_ = 0, most_ = 0;  ///< distances are held between these
   std::vector<IrradianceRecord> records_;

@@ -187,7 +187,7 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
   if (part.kind == Part::Kind::sphere) {
     const Vec3 to = part.origin - from;
     const Real away2 = dot(to, to), radius2 = part.size * part.size;
-    if (!(away2 > radius2)) return {};  // from inside it is met by chance
+    if (!(away2 > radius2)) return {};  // from inside it is met at random
     toLight = toCone(u, to / std::sqrt(away2), std::sqrt(1 - radius2 / away2));
     const Real along = dot(to, toLight);
     distance = along - std::sqrt(std::max(0.0, radius2 - (away2 - along * along)));
@@ -263,7 +263,7 @@ bool Lamps::isPlain(const Tracer& tracer, const Place& place, const Interfaces& 
 Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, const Interfaces& from,
                   Real chance) const {
   if (isPlain(tracer, place, from)) {
-    constexpr Real kBehind = 1 + 0x1p-10;  // of the way: what lies farther away is not asked
+    constexpr Real kBehind = 1 + 0x1p-10;  // relative to the distance: what lies farther away is not asked
     ++tracer.statistics().depths;
     const auto found = tracer.nearest(ray, RayKind::lamp, place.distance * kBehind);
     if (!found || !met(place, *found)) return Color(0);

@@ -1,9 +1,9 @@
-// What gives off light, objects and what is around the scene, as a path tracer looks for it: it chooses
-// places by chance.
+// Emitters for a path tracer, objects and the environment: it chooses
+// places at random.
 //
 // Known are squares, spheres that stayed spheres, and meshes, whose own material is emissive. Other emissive
-// objects are only met by chance. How often one is chosen follows from its area and its colour, and where
-// they have many parts also from the distance (render/light_tree.h). What is around is chosen half of the
+// objects are only met at random. How often one is chosen follows from its area and its colour, and where
+// they have many parts also from the distance (render/light_tree.h). The environment is chosen half of the
 // time, if it is brighter here than there or if portals show where it is seen.
 #pragma once
 
@@ -22,7 +22,7 @@ namespace trace {
 class Lamps {
  public:
   Lamps() = default;
-  /// Where no ray meets lamps by chance, what is around is one as soon as it is not the same all around.
+  /// Where no ray meets lamps at random, the environment is one as soon as it is not the same all around.
   /// Places are then spread over areas, so that Whitted's pictures keep their bits.
   Lamps(const World& world, int threads, bool onlyHere = false);
 
@@ -32,26 +32,26 @@ class Lamps {
 
   /// A place that was chosen.
   struct Place {
-    std::uint32_t object;  ///< kNone: what is around
+    std::uint32_t object;  ///< kNone: the environment
     std::uint64_t part;    ///< the triangle of a mesh
     Vec3 toLight;          ///< unit
-    Real density;          ///< of that direction, per solid angle
-    Real distance;         ///< infinite to what is around
+    Real density;          ///< density of that direction, per solid angle
+    Real distance;         ///< infinite to the environment
   };
   /// By three numbers from 0 up to 1. Nothing where the part that was chosen is not seen from there.
   std::optional<Place> choose(const Vec3& from, Real which, const Vec2& u) const;
   /// The density with which choose() gives the direction in which a ray from `from` met `hit`, the place that
   /// it met included; 0 for what is no lamp.
   Real density(const Vec3& from, const Hit& hit) const;
-  /// The same of a ray that met nothing.
+  /// The density for a ray that hit nothing.
   Real density(const Ray& ray) const { return choosesSky() ? skyShare() * skyDensity(ray) : 0; }
-  /// Where a photon of an object that shines starts.
+  /// Where a photon of an emissive object starts.
   struct Start {
     std::uint32_t object;
     Vec3 point, normal;  ///< unit
     bool twoSided;       ///< it shines on the other side, too
-    Real size;           ///< of the part: a length
-    Real density;        ///< of the place, per area of one side
+    Real size;           ///< size of the part: a length
+    Real density;        ///< density of the place, per area of one side
   };
   /// By three numbers from 0 up to 1. Nothing where no object shines.
   std::optional<Start> start(Real which, const Vec2& u) const;
@@ -60,11 +60,11 @@ class Lamps {
   static std::optional<Hit> placeOf(Tracer& tracer, const Start& start, const Vec3& normal, RayKind kind);
   /// With which start() gives a place of that part of a lamp, per area and side; 0 for what is no lamp.
   Real startDensity(std::uint32_t object, std::uint64_t part) const;
-  /// The same of the place that was hit.
+  /// The density for the point that was hit.
   Real startDensity(const Hit& hit) const;
-  /// What all of these objects send out: the luminance of their flux.
+  /// The power of all these objects: the luminance of their flux.
   Real power() const { return power_; }
-  /// Where a photon of what is around comes from.
+  /// Where a photon of the environment comes from.
   struct SkyStart {
     Vec3 toLight;
     Real density;  ///< per solid angle
@@ -96,7 +96,7 @@ class Lamps {
     Vec3 origin;        ///< a corner, or the middle
     Vec3 edgeA, edgeB;  ///< from the corner
     Real size;          ///< the area, or the radius
-    Real share;         ///< of all choices, where they are few
+    Real share;         ///< share of all choices, where they are few
     /// The density of the direction to `at`, which lies on the part, if the part is chosen.
     Real density(const Vec3& from, const Vec3& at) const;
     /// A rectangle as it is seen from there, where that differs from its area as seen from far away.
@@ -118,7 +118,7 @@ class Lamps {
   }
   bool isLamp(std::uint32_t object) const { return !parts_.empty() && first_[object] != kNone; }
   bool choosesSky() const { return !sky_.empty() || !portals_.empty(); }
-  /// How often what is around is chosen, and how often of these by its brightness, not through a portal.
+  /// How often the environment is chosen, and how often of these by its brightness, not through a portal.
   Real skyShare() const { return !choosesSky() ? 0 : parts_.empty() ? 1 : 0.5; }
   Real tableShare() const { return sky_.empty() ? 0 : portals_.empty() ? 1 : 0.5; }
   Vec3 towardSky(const Vec3& from, Real which, const Vec2& u) const;
@@ -137,8 +137,8 @@ class Lamps {
   std::vector<Part> parts_;
   LightTree tree_;  ///< over the parts, where they are many
   Real power_ = 0;
-  std::vector<Real> sums_;            ///< of the shares, up to and with each part
-  std::vector<std::uint32_t> first_;  ///< of each object; its parts follow it. kNone for what is no lamp
+  std::vector<Real> sums_;            ///< sums of the shares, up to and with each part
+  std::vector<std::uint32_t> first_;  ///< first part of each object; kNone for no lamp
   static constexpr std::uint32_t kNone = 0xffffffffu;
 };
 

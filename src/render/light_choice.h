@@ -1,4 +1,4 @@
-// Which lights of the scene a place asks: all, or some that are chosen by chance where they are many.
+// The lights of the scene that a place samples: all, or some that are chosen at random where they are many.
 #pragma once
 
 #include "render/sampler.h"
@@ -13,7 +13,7 @@ inline int lightChoices(const Settings& settings, std::size_t lights) {
   return settings.integrator != IntegratorKind::whitted && lights > kFew ? 1 : 0;
 }
 
-/// A light that a place asks.
+/// A light that a place samples.
 struct AskedLight {
   std::uint32_t light;
   Real share = 1;        ///< so many times what it gives counts
@@ -35,7 +35,7 @@ void askLights(const Tracer& tracer, const Vec3& from, const Vec3* normal, const
     for (std::uint32_t i = 0; i < world.lights().size(); ++i) ask(AskedLight{i, 1, 1, sampler, i});
     return;
   }
-  constexpr std::uint32_t kChoices = 0x7ffffff0u;  // a branch beside those of the lights
+  constexpr std::uint32_t kChoices = 0x7ffffff0u;  // a branch other than those of the lights
   const Sampler choosing = sampler.branch(kChoices);
   Sampler numbers = choosing;
   const Real first = numbers.next();

@@ -12,7 +12,7 @@
 namespace trace {
 namespace {
 
-/// What landed in the pixel, in an order that does not depend on threads.
+/// The splats of the pixel, in an order that does not depend on threads.
 class Landings {
  public:
   void add(std::span<const Landing> landings, std::int64_t paths) {

@@ -20,7 +20,7 @@ struct Landing {
 
 struct LightImagePixel {
   static constexpr std::size_t kMostShown = 5;
-  Color value;                         ///< of the finished picture's pixel it is this part, bit for bit
+  Color value;                         ///< its part of the finished picture's pixel, bit for bit
   std::int64_t paths = 0, landed = 0;  ///< paths of all samples, and of these those that landed here
   std::vector<Landing> brightest;      ///< at most kMostShown of them, the brightest first
 };

@@ -24,7 +24,7 @@ struct Ball {
   Vec3 middle;
   Real radius;
   Real area() const { return 4 * kPi * radius * radius; }
-  /// The solid angle that it covers, and in which places ask for it; 0 from inside.
+  /// The solid angle that it covers, and in which it is sampled; 0 from inside.
   Real angleFrom(const Vec3& place) const {
     const Vec3 way = middle - place;
     const Real sine2 = radius * radius / dot(way, way);
@@ -76,7 +76,7 @@ LightStarts::LightStarts(const World& world, const Lamps& lamps) : lamps_(&lamps
   }
   sum += lampShare_ + skyShare_;
   // Some paths in any case: it may shine past all places that were looked at.
-  constexpr Real kLeast = 0.02;  // of all, for all lights together
+  constexpr Real kLeast = 0.02;  // least share of all, for all lights together
   const Real least = sum > 0 ? kLeast * sum / static_cast<Real>(lights_.size()) : 1;
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     const bool shines =
@@ -153,7 +153,7 @@ std::optional<LightStarts::Start> LightStarts::fromLight(Tracer& tracer, std::si
   Start start;
   start.light = light;
   start.onLight = u;
-  Real density = 0;  // of the direction, or of the place across parallel light
+  Real density = 0;  // density of the direction, or of the place across parallel light
   match(world.lights()[light], [&](const auto& l) {
     using Kind = std::remove_cvref_t<decltype(l)>;
     if constexpr (PanelLight<Kind>) {

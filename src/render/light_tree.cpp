@@ -14,7 +14,7 @@ namespace {
 /// Beyond this depth a tree is halved by numbers, whatever the lights are like.
 constexpr int kDeep = 48;
 constexpr int kBuckets = 12;
-/// What a light counts that stands behind the surface: some materials are lit from there, too.
+/// The weight of a light behind the surface: some materials are lit from there, too.
 constexpr Real kBehind = 0.05;
 /// The most that nearness counts.
 constexpr Real kNearest = 1e30;

@@ -1,4 +1,4 @@
-// A choice among many lights, by chance: near, strong ones that shine toward a place are taken more often
+// A choice among many lights, at random: near, strong ones that shine toward a place are taken more often
 // (Conty Estevez and Kulla, Importance Sampling of Many Lights with Adaptive Tree Splitting, 2018; Pharr,
 // Jakob and Humphreys, Physically Based Rendering, 4th edition, 2023, section 12.6.3).
 //
@@ -44,13 +44,13 @@ class LightTree {
 
   /// Rounded so that it bounds what it is made of.
   struct Node {
-    float middle[3], radius;  ///< of a ball around its lights
+    float middle[3], radius;  ///< middle and radius of a ball around its lights
     float axis[3];
     float cosAround, sinAround, cosBeyond;
     float power;
     float fading[3], most;
     std::uint32_t parent = kNone;
-    std::uint32_t first = kNone;  ///< of its two children; of a leaf its light
+    std::uint32_t first = kNone;  ///< first of its two children; of a leaf its light
     bool leaf = false, twoSided = false, everywhere = false;
   };
   class Builder;

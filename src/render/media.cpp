@@ -16,7 +16,7 @@ struct Border {
   Real t;
   const World::MediumBody* body;  ///< null where the fog scatters
   bool begins;
-  Real arrives = 0;  ///< of the fog, per what scatters there
+  Real arrives = 0;  ///< light that arrives in the fog, per scattering
 };
 
 /// The stretch of the ray's line that may lie in the box: from first to second, if that is not less.
@@ -174,7 +174,7 @@ class Walk {
       glows += arrives * medium.glows;
       add(t, arrives * medium.scatters, medium.forward, object_, arrives);
       passes *= Color(1) + loses * (-1 / rate);
-      // What hardly anything is left of ends by chance, or goes on for more.
+      // A path with hardly any throughput ends at random, or continues with more weight.
       constexpr Real kLittle = 0.05, kGoesOn = 0.5;
       if (maxComponent(passes) < kLittle) {
         if (!(numbers_.next() < kGoesOn)) passes = Color(0);
@@ -190,13 +190,13 @@ class Walk {
   Color importance_;
   bool wantsPlaces_;
   int draws_;        ///< places of a stretch that Beer's law tells, from which some are chosen
-  Real leastSteps_;  ///< of a stretch that is cut by chance: more of them are less noise
+  Real leastSteps_;  ///< least steps of a stretch that is divided at random: more of them are less noise
   Sampler& numbers_;
   std::vector<const World::MediumBody*> active_;
   std::uint32_t object_ = Filling::kAir;
 };
 
-/// What of the fog scatters where its border is.
+/// The scattering of the fog at its border.
 struct FogPlace {
   Color weight{};  ///< without what bodies let pass
   Real forward = 0;

@@ -1,14 +1,14 @@
-// What light meets between surfaces: fog in the air, and bodies that a medium fills. The light that is left
-// of what comes along a ray, what the media give off on the way, and the places where they scatter light to
-// it.
+// Participating media between surfaces: fog in the air, and objects filled with a medium. The light that is
+// left of what comes along a ray, what the media emit on the way, and the places where they scatter light
+// to it.
 //
-// Media that are the same everywhere are worked out by Beer's law. Where a density changes, the way is cut by
-// chance into steps as short as its greatest density asks, and each step takes its part (ratio tracking:
-// Novak, Selle and Jarosz, Residual Ratio Tracking, SIGGRAPH Asia 2014; delta tracking: Woodcock and others
-// 1965). Every step is also a place that might scatter; of all these some are chosen by what they weigh.
-// Where nothing is absorbed, that is what delta tracking chooses: weights of 1. Colours are chosen from
-// together, by what each would choose (Chiang and others, Practical and Controllable Subsurface Scattering,
-// SIGGRAPH 2016 talks), so no weight grows out of bounds.
+// Media that are the same everywhere are computed by Beer's law. Where a density changes, the way is
+// cut at random into steps as short as its greatest density asks, and each step takes its part (ratio
+// tracking: Novak, Selle and Jarosz, Residual Ratio Tracking, SIGGRAPH Asia 2014; delta tracking: Woodcock
+// and others 1965). Every step is also a place that might scatter; of all these some are chosen by what they
+// weigh. Where nothing is absorbed, that is what delta tracking chooses: weights of 1. Colours are chosen
+// from together, by what each would choose (Chiang and others, Practical and Controllable Subsurface
+// Scattering, SIGGRAPH 2016 talks), so no weight grows out of bounds.
 #pragma once
 
 #include <optional>
@@ -28,12 +28,12 @@ inline bool isThick(const Tracer& tracer) {
 
 /// The way of a ray through media.
 struct MediumWay {
-  Color passes{1};  ///< of what comes from its end
-  Color glows;      ///< what arrives of the light that they give off
+  Color passes{1};  ///< transmittance to its end
+  Color glows;      ///< what arrives of the light that they emit
   /// Where light is scattered to the ray.
   struct Place {
     Real t;
-    Color weight;  ///< of the light there, from all sides
+    Color weight;  ///< weight of the light there, from all directions
     Real forward;
     std::uint32_t object;  ///< whose medium it is; Filling::kAir for fog
     Color arrives;         ///< the length for which it stands, without what the medium scatters of it
@@ -48,7 +48,7 @@ MediumWay throughMedia(Tracer& tracer, const Ray& ray, Real t, const Interfaces&
                        const Color& importance, Sampler numbers, bool fog = true);
 
 /// Whether a path that arrives with that weight is scattered at the place of the way, by a number from 0 up
-/// to 1: then the place, which counts the more; else what passes counts the more.
+/// to 1: then the place, which counts the more; else the rest counts the more.
 std::optional<MediumWay::Place> placeByChance(MediumWay& way, const Color& weight, Real chance);
 
 /// A direction in which a medium scatters what ran along `along`, by two numbers from 0 up to 1.
@@ -58,13 +58,13 @@ struct PhaseSample {
 };
 PhaseSample samplePhase(const Vec3& along, Real forward, const Vec2& u);
 
-/// Adds what `way` lets pass and gives off to the sum of what comes from its end.
+/// Adds what `way` lets pass and emits to the sum of what comes from its end.
 void coverWithMedia(Gather& sum, const MediumWay& way);
 
-/// Of `passed` of the light of the shadow ray asked last, what the bodies that media fill let through. Fog is
+/// The part of `passed` of the last shadow ray that media inside objects transmit. Fog is
 /// known already.
 Color throughBodies(Tracer& tracer, const Color& passed, const Ray& toLight, Real distance, Sampler numbers);
-/// The same of a ray to a place that shines; `first` becomes the first body on the way.
+/// The transmittance of a ray to an emitter; `first` becomes the first body on the way.
 Color passedByBodies(Tracer& tracer, const Ray& ray, Real distance, Sampler numbers,
                      std::uint32_t* first = nullptr);
 
@@ -72,7 +72,7 @@ Color passedByBodies(Tracer& tracer, const Ray& ray, Real distance, Sampler numb
 struct ScatterPlace {
   const Ray& ray;
   Vec3 point;
-  Color share;  ///< of that light in the sum
+  Color share;  ///< share of that light in the sum
   Real forward;
   const Interfaces& inside;
   std::optional<MediumTerm> medium;  ///< none in fog alone
@@ -81,7 +81,7 @@ struct ScatterPlace {
 void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photons, const Sampler& numbers);
 /// Adds the light of the scene's lights.
 void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers);
-/// Adds the light of one place on objects that shine. `met`: a ray that is scattered there may meet them,
+/// Adds the light of one place on emissive objects. `met`: a ray that is scattered there may meet them,
 /// too.
 void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lamps& lamps, bool met,
                const Sampler& numbers);

@@ -29,7 +29,7 @@ void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const S
 
 void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lamps& lamps, bool met,
                const Sampler& numbers) {
-  constexpr std::uint32_t kLamp = 0x80000000u, kBodies = 0x80000001u;  // branches beside those of lights
+  constexpr std::uint32_t kLamp = 0x80000000u, kBodies = 0x80000001u;  // branches other than those of lights
   if (lamps.empty()) return;
   Sampler chances = numbers.branch(kLamp);
   const Real which = chances.next();

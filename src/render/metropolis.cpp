@@ -134,7 +134,7 @@ std::vector<Real> Metropolis::startLights(Job& job, const std::function<void()>&
 
 /// How bright the picture is, and the standard error as a part of that, by samples of their own: each shows
 /// all ways to put its paths together. Those at which chains start tell it less exactly: among them a few
-/// count a thousand times as much as most, and chance decides how many see a small lamp. They are spread
+/// count a thousand times as much as most, and it is random how many see a small lamp. They are spread
 /// evenly, all of them better than each of several parts, whose means so tell an error that is rather larger
 /// than the true one.
 std::pair<Real, Real> Metropolis::wholeLight(Job& job, const std::function<void()>& interrupt) const {

@@ -36,8 +36,8 @@ class Metropolis {
   /// Takes samples for a worker's chains.
   PixelTracer tracer() const { return {moments_, settings_, size_}; }
 
-  /// What the chain of that number leaves in the picture in so many moves. Film::picture() divides the sum of
-  /// all chains by the number of all moves. Chains of smaller waves, and of tiles before in the
+  /// Adds the splats of the chain of that number to the picture, in that many moves. Film::picture() divides
+  /// the sum of all chains by the number of all moves. Chains of smaller waves, and of tiles before in the
   /// same wave, make `before` moves: where each chain knows how many, the samples that tell how bright the
   /// picture is are spread evenly over all chains.
   std::vector<Splat> chain(PixelTracer& tracer, std::uint64_t number, std::int64_t moves,
@@ -65,8 +65,8 @@ class Metropolis {
   std::span<const Moment> moments_;
   Settings settings_;
   Size size_;
-  Tile area_;               ///< of the picture that is rendered
-  std::vector<Real> sums_;  ///< of the light of the samples that were taken first, up to and with each
+  Tile area_;               ///< area of the picture that is rendered
+  std::vector<Real> sums_;  ///< sums of the light of the first samples, up to and with each
   Real mean_ = 0;           ///< how bright the picture is: the light of a sample, on the average
   Real error_ = 0;
   std::unique_ptr<const veach::Chains> paths_;  ///< where paths are changed, not the numbers of samples

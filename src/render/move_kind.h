@@ -7,11 +7,11 @@
 
 namespace trace {
 
-/// The numbers of a sample: changed a little. All is thrown anew. The others change a path place by place.
+/// The numbers of a sample: changed a little. All is replaced. The others change a path place by place.
 enum class MoveKind { nearby, anywhere, bidirectional, lens, caustic, multiChain };
 
 struct MoveLook {
-  std::string_view name;  ///< of a column
+  std::string_view name;  ///< name of a column
   std::string_view of;    ///< "12 of 70 moves ..."
 };
 inline constexpr std::array<MoveLook, 6> kMoveLooks{{{"nearby", "nearby"},

@@ -23,7 +23,7 @@ bool isInRange(const Light& light);
 bool isInRange(const Material& material);
 bool isInRange(const Camera& camera);
 
-/// What was left out of a World because it is not in range, told in one warning for each kind.
+/// Objects left out of a World because they are not in range, told in one warning for each kind.
 class LeftOut {
  public:
   explicit LeftOut(std::string what) : what_(std::move(what)) {}

@@ -8,7 +8,7 @@ namespace {
 constexpr int kRays = 16;          // around a sample
 constexpr Real kEdge = 0.8660254;  // the cosine of 30 degrees: a surface that turns by more has an edge
 
-/// The ray meets something else than what was hit, or a part of it behind an edge.
+/// The ray hits something else than what was hit, or a part of it behind an edge.
 bool elsewhere(Tracer& tracer, const std::optional<Hit>& hit, const Ray& ray) {
   const World& world = tracer.world();
   const std::optional<Found> found = tracer.look(ray, RayKind::camera);

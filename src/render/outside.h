@@ -1,7 +1,8 @@
-// What rays see that meet nothing. What lies nearer hides what lies behind it:
+// The environment: the colour of rays that hit nothing. What lies nearer hides what lies behind it:
 //
-//   camera rays: the backdrop, the environment, the panorama, the sky by day, the gradient, the bands
-//   other rays:               the environment, the panorama, the sky by day, the gradient; or nothing: black
+//   camera rays: the backdrop, the environment, the panorama, the daylight sky, the gradient, the bands
+//   other rays:               the environment, the panorama, the daylight sky, the gradient; or nothing:
+//   black
 //
 // The panorama is the six pictures of the scene's background; where there is none, and through their
 // transparency, what lies behind is seen.
@@ -24,14 +25,14 @@ class Outside {
   enum class Source { nothing, backdrop, environment, panorama, sky, gradient, bands };
   static constexpr std::array<std::string_view, 7> kNames{"nothing", "backdrop", "environment", "panorama",
                                                           "sky",     "gradient", "bands"};
-  /// What one ray sees.
+  /// The result for one ray.
   struct View {
     Source source = Source::nothing;
     /// An environment: the place in its picture, (0, 0) at the top left of it or of the face. A backdrop or
     /// bands: the place in the picture that is rendered, from the top left. The rest: the elevation in
     /// degrees, as y.
     Vec2 place;
-    int face = -1;  ///< of a cube: index into EnvironmentMap::kFaceNames
+    int face = -1;  ///< face of a cube: index into EnvironmentMap::kFaceNames
     Vec3 direction;
     Color color;
   };
@@ -48,7 +49,7 @@ class Outside {
   View view(const Ray& ray, RayKind kind) const;
 
  private:
-  /// What the ray sees of that source.
+  /// The colour that the ray sees of that source.
   View seen(Source source, const Ray& ray) const;
   /// Against the rotation.
   Vec3 turnedBack(const Vec3& direction) const;

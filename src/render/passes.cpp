@@ -97,7 +97,7 @@ Picture samplesShown(const Picture& values, const Settings& settings) {
   return coloured(mapped(values, [&](const Color& c) { return c * (1 / most); }), settings);
 }
 
-/// What the material scatters evenly, mirrors and lets through, straight on.
+/// The albedo of the material: diffuse, reflected and transmitted straight.
 Color albedoValue(const PassPlace& at) {
   const CameraRay& camera = at.camera;
   const Interaction place(at.tracer, camera.ray, at.hit, camera.differentials, camera.inside, 0.5);
@@ -141,21 +141,20 @@ constexpr std::array kPasses{
             Film::Keep::first, Color(0), Color(0), idValue, idShown},
     PassRow{Pass::uv, "uv", "its texture coordinates; u is shown red, v green", Film::Keep::first, Color(0),
             Color(0), uvValue, uvShown},
-    PassRow{Pass::position, "position", "its place in the world; shown within the box of all that is seen",
+    PassRow{Pass::position, "position",
+            "its position in the world; shown within the bounding box of all visible points",
             Film::Keep::first, kNowhere, kNowhere, positionValue, positionShown},
     PassRow{Pass::samples, "samples", "how many camera rays it has; most are white", Film::Keep::sum,
             Color(1), Color(1), samplesValue, samplesShown},
-    PassRow{Pass::albedo, "albedo", "the colour of its material: what it scatters, mirrors and lets through",
+    PassRow{Pass::albedo, "albedo", "the albedo of its material: diffuse, reflected and transmitted",
             Film::Keep::mean, Color(0), Color(0), albedoValue, plainShown},
-    PassRow{Pass::occlusion, "occlusion",
-            "how open the place is: ambient occlusion, white where nothing is near", Film::Keep::mean,
+    PassRow{Pass::occlusion, "occlusion", "ambient occlusion, white where nothing is near", Film::Keep::mean,
             Color(1), Color(1), occlusionValue, plainShown},
-    PassRow{Pass::change, "change",
-            "what --denoise added to the picture; shown by its size, 16 levels are white", Film::Keep::mean,
-            Color(0), Color(0), nullptr, changeShown},
+    PassRow{Pass::change, "change", "the change by --denoise; shown by its size, 16 levels are white",
+            Film::Keep::mean, Color(0), Color(0), nullptr, changeShown},
 };
 
-/// What else guides the removal of noise.
+/// The other guides of denoising.
 constexpr PassRow kNearness{Pass::depth, "nearness",    "",        Film::Keep::mean, Color(0),
                             Color(0),    nearnessValue, plainShown};
 

@@ -24,8 +24,8 @@ struct PassRow {
   std::string_view name;
   std::string_view help;
   Film::Keep keep;
-  Color background;  ///< where a ray meets nothing that the camera sees, and where nothing is rendered
-  Color tooNear;     ///< where it meets something nearer than the camera sees
+  Color background;  ///< where a ray hits nothing that the camera sees, and where nothing is rendered
+  Color tooNear;     ///< where it hits something nearer than the camera sees
 
   /// The value at the surface that a camera ray meets. A pass of one number has it in all three channels.
   /// Null: the pass is made of the finished picture, and is no layer.

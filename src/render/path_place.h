@@ -30,12 +30,12 @@ class PathPlace {
   Real cosine(const Vec3& direction) const {
     return at_ ? std::abs(dot(direction, at_->hit.surface.normal)) : 1;
   }
-  /// Per solid angle, of going on in a direction after one has come from the other.
+  /// Per solid angle, of continuing in a direction after one has come from the other.
   Real density(const Vec3& from, const Vec3& to) const {
     return at_ ? trace::density(at_->bsdf(), frameToward(*at_, from), from, to)
                : phase(forward_, -dot(from, to));
   }
-  /// What it scatters of the light from one direction to the other, of a path from the camera and of one from
+  /// The scattering of the light from one direction to the other, of a path from the camera and of one from
   /// a light; see render/onward.h.
   Color scattered(const Vec3& toEye, const Vec3& toLight) const {
     return at_ ? trace::scattered(*at_, toEye, toLight) : Color(phase(forward_, -dot(toEye, toLight)));
@@ -43,18 +43,18 @@ class PathPlace {
   Color scatteredOn(const Vec3& toEye, const Vec3& toLight, bool lit) const {
     return at_ ? trace::scatteredOn(*at_, toEye, toLight, lit) : Color(phase(forward_, -dot(toEye, toLight)));
   }
-  /// The same of a light of the scene, whose `arriving` is.
+  /// The scattering of a light of the scene, whose `arriving` is.
   Color scattered(const Illumination& arriving) const;
 
   Ray leave(const Vec3& direction) const {
     return at_ ? at_->leaveToLight(direction) : Ray{point_, direction};
   }
-  /// What a ray is in that leaves toward another place.
+  /// The media of a ray that leaves toward another vertex.
   Interfaces side(const Vec3& direction) const {
     return at_ && dot(direction, at_->normal) < 0 && at_->transmits ? at_->behind() : *inside_;
   }
-  /// What passes along the ray that leaves it, up to that distance, of what is in the way and of bodies that
-  /// media fill; fog is left out.
+  /// The transmittance along the ray that leaves it, up to that distance, of what is in the way and of bodies
+  /// that media fill; fog is left out.
   Color visible(Tracer& tracer, const Ray& ray, Real distance, const Sampler& numbers) const;
 
  private:

@@ -13,20 +13,21 @@
 #include "render/illumination_map.h"
 #include "render/media.h"
 #include "render/photon_targets.h"
+#include "shading/materials/subsurface.h"
 
 namespace trace {
 
 class Interaction;
 
-/// What sends photons: a light of the scene, the objects that shine, or what is around.
+/// A source of photons: a light of the scene, the emissive objects, or the environment.
 struct PhotonSource {
   enum class Kind { light, lamps, sky } kind;
   std::size_t light = 0;
   Real power = 0;          ///< about what it sends; only how many photons it gets depends on that
-  std::int64_t count = 0;  ///< of them
+  std::int64_t count = 0;  ///< number of photons
 };
 
-/// What came to rest on surfaces, what passed places in media, and what lies on maps of surfaces.
+/// The stored photons: on surfaces, in media, and on maps of surfaces.
 struct LandedPhotons {
   std::vector<Photon> photons{};
   std::vector<Photon> inMedia{};
@@ -66,7 +67,7 @@ class PhotonEmitter {
     Real share = 0, count = 1;    ///< what of the light it stands for, and among how many
     Real law = 0;                 ///< what falls on the pane that it has crossed last
     int bounces = 0, scatterings = 0;
-    int panes = 0;           ///< of the bounces, on the way straight from a light of the scene
+    int panes = 0;           ///< panes of the bounces, on the way straight from a light of the scene
     bool straight = true;    ///< it has met nothing but panes that bend nothing
     bool asked = true;       ///< shadow rays bring it to media, if a light of the scene sent it
     bool gathered = false;   ///< it is not what shadow rays bring

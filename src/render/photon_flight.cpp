@@ -4,6 +4,7 @@
 #include "render/onward.h"
 #include "render/photon_emitter.h"
 #include "render/subsurface.h"
+#include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -11,7 +12,7 @@ namespace {
 
 /// The light that a photon carries on in a direction, times the cosine, as an eye there would see it: not
 /// every model is the same both ways. Where the shading normal is far from the true one, that counts at most
-/// so often (Veach 1997, section 5.3.2).
+/// that often (Veach 1997, section 5.3.2).
 Color scatteredPhoton(const Interaction& at, const Vec3& direction) {
   constexpr Real kMost = 4;
   const Vec3& normal = at.hit.surface.normal;
@@ -23,7 +24,7 @@ Color scatteredPhoton(const Interaction& at, const Vec3& direction) {
 
 }  // namespace
 
-/// What of the light over a solid angle falls on a surface there, by the light's own law.
+/// The part of the light over a solid angle that falls on a surface there, by the light's own law.
 Real PhotonEmitter::fallsOn(const Flight& flight, const Vec3& point) const {
   const auto arriving = world_.illuminate(*flight.light, point, flight.onLight);
   if (!arriving) return 0;
@@ -35,7 +36,7 @@ Real PhotonEmitter::fallsOn(const Flight& flight, const Vec3& point) const {
 /// a shadow ray through it finds it: by the light's own law, which need not be the square of the distance.
 Color PhotonEmitter::arriving(const Flight& f, const Vec3& point, Real t) const {
   if (f.light && f.bounces == 0 && f.scatterings == 0) {
-    // What falls on a surface there that faces the light, over the solid angle or the area.
+    // The light that falls on a surface there that faces the light, over the solid angle or the area.
     const auto light = world_.illuminate(*f.light, point, f.onLight);
     if (!light) return Color(0);
     const Real away2 = f.start ? t * t : 1;
@@ -49,13 +50,13 @@ bool PhotonEmitter::rests(const Flight& f) const {
   return kept_ == Kept::all || (kept_ == Kept::scattered ? f.scattered : f.bounces > 0 && f.gathered);
 }
 
-/// Whether a path that media scatter so often counts. Seen from the eye, the last scattering that
+/// Whether a path that media scatter that often counts. Seen from the eye, the last scattering that
 /// `medium-depth` allows is lit by lights alone, not by surfaces; so light must have met a medium first.
 bool PhotonEmitter::counts(int scatterings, bool mediumFirst) const {
   return scatterings < settings_.mediumDepth || (scatterings == settings_.mediumDepth && mediumFirst);
 }
 
-/// The photon, whose power that is already, goes on from there as a medium scatters it.
+/// The photon, whose power that is already, continues from there as a medium scatters it.
 void PhotonEmitter::scatter(Flight& f, const Vec3& point, Real forward) {
   f.mediumFirst = f.mediumFirst || f.untouched();
   f.ray = {point, samplePhase(f.ray.direction, forward, {chance(), chance()}).direction};
@@ -66,8 +67,8 @@ void PhotonEmitter::scatter(Flight& f, const Vec3& point, Real forward) {
   if (!isBlack(f.power)) cast(f);
 }
 
-/// What fog scatters of parallel light, which is as strong in front of fog as behind: a photon of its own,
-/// from a place within the scene. Light of the sky has come through fog.
+/// The scattering of parallel light by fog, which is as strong in front of fog as behind: a photon of its
+/// own, from a place within the scene. Light of the sky has come through fog.
 void PhotonEmitter::lightFog(const Flight& parallel, LandedPhotons& landed) {
   const Box3& box = world_.bounds();
   const Ray& ray = parallel.ray;
@@ -93,7 +94,7 @@ void PhotonEmitter::lightFog(const Flight& parallel, LandedPhotons& landed) {
   fly(own, landed);
 }
 
-/// The way up to the next surface: what passes, and what media keep of it. True if it was scattered there.
+/// The way up to the next surface: the transmittance, and what media absorb. True if it was scattered there.
 bool PhotonEmitter::crossMedia(Flight& f, LandedPhotons& landed) {
   if (f.parallel && !onlyCaustics_ && !fog_.none()) lightFog(f, landed);
   const Real far = f.hit ? f.hit->t : kInfinity;
@@ -130,7 +131,7 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
     if (!f.hit) return;
     f.power = arriving(f, f.hit->surface.point, f.hit->t) * f.inside.passed(f.hit->t);
     if (isBlack(f.power)) return;
-    // A pane that the light does not light lets it pass.
+    // A pane that the light does not light has no effect.
     const bool linked = !f.straight || !f.light || world_.lights(*f.light, f.hit->object);
     Interaction at(tracer_, f.ray, *f.hit, nullptr, f.inside, chance());
     const bool scattersIt = scatters(at.bsdf());
@@ -154,14 +155,14 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
   }
 }
 
-/// One ray goes on from the surface, or none: what it brings stays about the same. False if it ends.
+/// One ray continues from the surface, or none: what it brings stays about the same. False if it ends.
 bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt,
                          const std::optional<SubsurfaceBsdf>& body) {
   const auto shares = at.shares();
   const SpectralShare* share =
       shares.empty() ? nullptr
                      : &shares[static_cast<std::size_t>(chance() * static_cast<Real>(shares.size()))];
-  // What is mirrored or refracted into a lobe is scattered, and rests in the map of all light alone.
+  // Light reflected or refracted into a lobe is scattered, and is stored in the map of all light alone.
   // Whitted's tracer, which has no such map, takes the rays that stand for the lobe.
   const bool glossy = lamps_ && isGlossy(at.bsdf());
   const Color mirror = at.mirror(lamps_);

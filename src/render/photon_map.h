@@ -17,7 +17,7 @@ namespace trace {
 struct Photon {
   Vec3 point;
   Vec3 direction;  ///< in which it flew, unit
-  Vec3 normal;     ///< of the surface, on the side where it arrived; 0 in a medium
+  Vec3 normal;     ///< normal of the surface, on the side where it arrived; 0 in a medium
   Color power;  ///< what it brings: divided by an area, pi times the colour of a light. In a medium times the
                 ///< length for which it stands, which is divided by a volume
   Real flown = kInfinity;  ///< the distance from the surface that sent it here evenly; infinite if none did
@@ -44,7 +44,7 @@ class PhotonMap {
     std::array<const Photon*, kNearest> photons;
     std::array<Real, kNearest> distance2;
     std::size_t count = 0;
-    Real radius2 = 0;  ///< of the disk on which they arrived
+    Real radius2 = 0;  ///< radius2 of the disk on which they arrived
     /// The share of an area that photon i counts for: less toward the edge of the disk (Epanechnikov's
     /// kernel, which keeps edges of light sharper than a disk does).
     Real perArea(std::size_t i) const {
@@ -56,7 +56,7 @@ class PhotonMap {
     }
   };
   Near near(const Vec3& point, const Vec3& normal) const;
-  /// The same in a medium: all around.
+  /// The estimate in a medium: from all directions.
   Near around(const Vec3& point) const;
 
  private:

@@ -30,7 +30,7 @@ struct PhotonAim {
 std::optional<PhotonAim> aimFrom(const Vec3& place, const std::vector<PhotonTarget>& targets, Real which,
                                  const Vec2& u);
 
-/// The same of parallel light: evenly over the disks that the targets cover.
+/// A start of parallel light: evenly over the disks that the targets cover.
 std::optional<PhotonAim> aimAlong(const Vec3& direction, const std::vector<PhotonTarget>& targets,
                                   const Box3& scene, Real which, const Vec2& u);
 

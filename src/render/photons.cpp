@@ -42,7 +42,7 @@ std::vector<PhotonSource> sourcesOf(const World& world, const Lamps* lamps,
     for (const PhotonTarget& t : targets) disks += t.radius * t.radius;
     add(PhotonSource::Kind::sky, 0, power * disks);
   }
-  constexpr Real kLeast = 0.02;  // of the strongest one
+  constexpr Real kLeast = 0.02;  // relative to the strongest one
   for (PhotonSource& s : sources) sum += s.power = std::max(s.power, most > 0 ? kLeast * most : 1);
   for (PhotonSource& s : sources)
     s.count =
@@ -96,7 +96,7 @@ std::size_t nearestOfPass(int pass) {
   return std::max(kFewest, static_cast<std::size_t>(count + 0.5));
 }
 
-/// From how far away photons count if nothing is said: by the scene's size, but of a glass on a wide floor by
+/// From how far away photons count by default: by the scene's size, but of a glass on a wide floor by
 /// that of the glass.
 Real causticReach(const World& world, const std::vector<PhotonTarget>& targets) {
   constexpr Real kOfScene = 0.02, kOfTargets = 0.1;
@@ -144,7 +144,7 @@ GlobalMaps globalMaps(const World& world, const Settings& settings, const Lamps&
   const Box3& box = world.bounds();
   if (settings.photons == 0 || box.empty()) return {};
   const std::vector<PhotonTarget> everything{{box.center(), length(box.size()) / 2}};
-  constexpr Real kReach = 0.1;  // of the scene's size
+  constexpr Real kReach = 0.1;  // relative to the scene's size
   const Real reach = kReach * length(box.size()), area = areaOfPass(pass);
   LandedPhotons landed =
       landedPhotons(world, settings, &lamps, everything,

@@ -33,7 +33,7 @@ class PixelTracer {
 
   /// From now on what samples throw at other places of the picture is left there; null: nowhere.
   void collect(std::vector<Splat>* splats) { splats_ = splats; }
-  /// What the last sample threw, if that is collected.
+  /// The splats of the last sample, if they are collected.
   const std::vector<Thrown>& thrown() const { return thrown_; }
   /// Calls use(Splat) for each pixel that sees it.
   template <class Use>
@@ -44,7 +44,8 @@ class PixelTracer {
   /// How many a pixel has.
   int samples() const { return rules_.samples(); }
 
-  /// What the camera ray of sample 0 <= k < samples() brings; may be NaN or infinite. Row y = 0 is the top.
+  /// The radiance of the camera ray of sample 0 <= k < samples(); may be NaN or infinite. Row y = 0 is the
+  /// top.
   Color sample(int x, int y, int k) {
     return sample(x, y, k, [](const CameraRay&, const Sampler&) {});
   }
@@ -54,7 +55,7 @@ class PixelTracer {
     const Sampler sampler(rules_, x, y, k);
     return follow(sampler, rules_.middle(x, y), sampler.film(), look);
   }
-  /// What a corner sees, likewise.
+  /// The radiance at a corner, likewise.
   template <class Look>
   Color corner(const CornerPlace& place, Look&& look) {
     const Sampler sampler(rules_, place);
@@ -75,8 +76,8 @@ class PixelTracer {
     withCamera(sampler, rules_.middle(x, y), sampler.film(),
                [&](const CameraRay& camera) { look(camera, sampler); });
   }
-  /// What a sample with these numbers brings, times what it counts, and where. The numbers choose its place
-  /// in the area of the picture, too.
+  /// The contribution of a sample with these numbers, times what it counts, and where. The numbers choose its
+  /// place in the area of the picture, too.
   Splat sample(SampleNumbers& numbers, const Tile& area) {
     const Sampler sampler(rules_, numbers);
     const auto split = [](Real u, int first, int end) {  // into a pixel and a place in it
@@ -177,7 +178,7 @@ class PixelTracer {
   SampleRules rules_;
 };
 
-/// Adds the samples of the wave; what counts each is told to see(color, weight).
+/// Adds the samples of the wave; calls see(color, weight) for each.
 template <class See>
 void addWave(PixelTracer& tracer, int x, int y, const Wave& wave, PixelSum& sum, const See& see) {
   for (int k = wave.first; k < wave.end; ++k) {

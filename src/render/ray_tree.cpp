@@ -26,7 +26,7 @@ std::string shortText(Real x, int digits) {
 
 std::string kindName(RayKind kind) { return std::string(name(kind)); }
 
-/// The rays that it was sent on as: "reflection and 5 refractions".
+/// Its secondary rays: "reflection and 5 refractions".
 std::string sentOn(const RayNode& node) {
   std::vector<std::pair<std::string_view, int>> kinds;
   for (const Term& term : node.terms) {
@@ -49,7 +49,7 @@ const MediumTerm* turnedBy(const RayNode& node) {
   return nullptr;
 }
 
-/// What it is and where: "sphere (scene.ray:12)".
+/// The object and its position: "sphere (scene.ray:12)".
 std::string named(std::string_view keyword, const Place& place) {
   std::string text(keyword);
   if (const std::string where = shortPlace(place); !where.empty()) text += " (" + where + ")";
@@ -86,7 +86,7 @@ std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
                                toText(e.threshold) + ": no " + kindName(e.unsent);
                       },
                       [](const Roulette& e) {
-                        return "Russian roulette, which goes on with a chance of " + shortText(e.chance, 3) +
+                        return "Russian roulette with survival probability " + shortText(e.chance, 3) +
                                ": no " + kindName(e.unsent);
                       },
                       [](const TotalInternalReflection&) -> std::string {
@@ -241,7 +241,7 @@ std::string sentence(const RayNode& node, const Scene& scene) {
     last = &end;
   }
   const std::string on = sentOn(node);
-  if (!on.empty()) text += (text.empty() ? "goes on as " : "; goes on as ") + on;
+  if (!on.empty()) text += (text.empty() ? "continues as " : "; continues as ") + on;
   return text;
 }
 

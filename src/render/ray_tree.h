@@ -70,7 +70,7 @@ struct BelowThreshold {
   Real contribution;  ///< the largest change of the sample that the unsent ray could make
   Real threshold;
 };
-/// Russian roulette ended the path: it would have gone on with this chance, and counted so much the more.
+/// Russian roulette ended the path: it would have resumed this chance, and counted so much the more.
 struct Roulette {
   static constexpr std::string_view kName = "roulette";
   RayKind unsent;
@@ -83,7 +83,7 @@ struct TotalInternalReflection {
 /// A shadow ray met something that lets no light through.
 struct Blocked {
   static constexpr std::string_view kName = "blocked";
-  std::uint32_t object;  ///< the nearest that lets nothing through
+  std::uint32_t object;  ///< the nearest that transmits nothing
   std::uint64_t part;
   Real t;
   std::vector<MaterialShare> materials;  ///< there
@@ -109,7 +109,7 @@ struct LightTerm {
   std::uint32_t light = 0;  ///< index into Scene::lights
   Illumination arriving;
   Scatter scatter;
-  Real share = 1;        ///< of the rays to a light with a size: one of --light-samples
+  Real share = 1;        ///< share among the rays to a light with a size: one of --light-samples
   Real probability = 1;  ///< with which the light was chosen among all, if they are many: share holds it, too
 };
 
@@ -119,13 +119,14 @@ struct DarkTerm {
   std::uint32_t light = 0;  ///< index into Scene::lights
 };
 
-/// How a direction was chosen by chance, and what the choice counts among the ways to come upon the same
+/// How a direction was chosen at random, and what the choice counts among the ways to come upon the same
 /// light.
 struct ChanceTerm {
-  Real density =
-      0;  ///< of the direction, per solid angle, with all choices that led to it; 0: there was one only
-  Real other = 0;  ///< of the other way: of lamps for a bounced ray, of the surface for a ray to a lamp
-  Real share = 1;  ///< of this way: the power heuristic (Veach 1997, section 9.2.4)
+  Real density = 0;  ///< density of the direction, per solid angle, with all choices that led to it; 0: there
+                     ///< was one only
+  Real other = 0;  ///< density of the other strategy: light sampling for a bounced ray, the surface for a ray
+                   ///< to a lamp
+  Real share = 1;  ///< MIS weight of this strategy: the power heuristic (Veach 1997, section 9.2.4)
 };
 
 /// Photons that were counted, and the radius of the disk in which they lie.
@@ -135,7 +136,7 @@ struct PhotonTerm {
   std::vector<Photon> photons{};  ///< that they are, where a tree takes them
 };
 
-/// Light that was worked out at some places before, and blended here.
+/// Light that was computed at some places before, and blended here.
 struct CacheTerm {
   std::size_t records = 0;  ///< so many of them
 };
@@ -145,10 +146,10 @@ struct CacheTerm {
 /// it was.
 struct ConnectionTerm {
   int light = 0, camera = 0;
-  Real share = 1;  ///< of this way: the power heuristic (Veach 1997, section 10.2)
+  Real share = 1;  ///< MIS weight of this strategy: the power heuristic (Veach 1997, section 10.2)
 };
 
-/// What a medium does with light, and where.
+/// The effect of a medium on light, and its position.
 struct MediumTerm {
   enum class What { covers, glows, scatters, follows } what = What::covers;
   std::uint32_t object = 0;  ///< index into Scene::objects; Filling::kAir for fog
@@ -159,7 +160,7 @@ struct MediumTerm {
 /// Where light that comes out of a body went in.
 struct BodyTerm {
   Real distance = 0;  ///< from the place where it comes out
-  int steps = 0;      ///< so often it was scattered; 0 where a profile tells how much arrives
+  int steps = 0;      ///< number of scattering events; 0 for a profile
 };
 
 /// factor * value, a summand of a ray's radiance.
@@ -187,7 +188,7 @@ struct Term {
       "emissive",   "ambient",    "light", "caustic", "photons",    "reflection",
       "refraction", "bounce",     "lamp",  "joined",  "background", "fog",
       "medium",     "subsurface", "hole",  "outline", "irradiance"};
-  /// The ray of the term is one on which the path goes on, not one that asks for light.
+  /// The ray of the term is one on which the path continues, not a shadow ray.
   bool goesOn() const {
     return ray >= 0 && (kind == Kind::reflection || kind == Kind::refraction || kind == Kind::bounce ||
                         kind == Kind::subsurface || kind == Kind::hole ||
@@ -207,14 +208,14 @@ struct Term {
   std::optional<std::uint32_t> scattered{};  ///< by air or a medium: the light's index into Scene::lights
 };
 
-/// A surface at which nothing changes for light: the ray went on. There is a hole, or it is so by the rule of
-/// nested glass.
+/// A surface at which nothing changes for light: the ray continued. There is a hole, or it is so by the rule
+/// of nested glass.
 struct Ignored {
   std::uint32_t object = 0;
   std::uint64_t part = 0;
   Real t = 0;
   bool leaving = false;
-  Real opacity = 1;  ///< of a hole, or of what is there in part and was not met: less than 1
+  Real opacity = 1;  ///< opacity of a hole, or of a partly open surface that was not hit: less than 1
   Filling body{};    ///< whose surface it is
   Filling around{};  ///< what fills the place on both sides
 };
@@ -230,12 +231,12 @@ struct Filter {
 
 struct RayNode {
   RayKind kind = RayKind::camera;
-  int parent = -1, depth = 0;  ///< of the camera ray: -1 and 0
+  int parent = -1, depth = 0;  ///< -1 and 0 for the camera ray
   Ray ray;
-  Real tMost = kInfinity;                ///< of a shadow ray: the distance of the light
+  Real tMost = kInfinity;                ///< for a shadow ray, the distance of the light
   std::optional<Hit> hit;                ///< not of shadow rays
-  std::optional<Outside::View> outside;  ///< what it sees where it meets nothing
-  std::vector<MaterialShare> materials;  ///< of the hit
+  std::optional<Outside::View> outside;  ///< what it sees where it hits nothing
+  std::vector<MaterialShare> materials;  ///< materials of the hit
   std::optional<Bsdf> bsdf;              ///< there
   Indices indices;                       ///< there
   std::optional<Vec3> raised;            ///< where rays from there to light start, if not at the hit
@@ -243,12 +244,12 @@ struct RayNode {
   Real wavelength = 0;                   ///< in nanometres; 0: light of all colours
   std::vector<Term> terms;
   Color through{1};             ///< what the medium lets pass on the way back
-  std::vector<Filter> filters;  ///< of a shadow ray, in order
+  std::vector<Filter> filters;  ///< filters of a shadow ray, in order
   std::vector<RayEnd> ends;     ///< several where it sends neither of two rays; none where all were sent
   Color radiance;               ///< brought back; of a shadow ray: the share of the light that passes
   Color weight;                 ///< factor of the radiance in the pixel
-  std::uint64_t nodes = 0;      ///< of hierarchies, visited
-  std::uint64_t tests = 0;      ///< of shapes and triangles
+  std::uint64_t nodes = 0;      ///< nodes of hierarchies, visited
+  std::uint64_t tests = 0;      ///< tests of shapes and triangles
 };
 
 /// More rays than this are not recorded: a thousand bounces between two panes of glass take more than a
@@ -259,14 +260,14 @@ inline constexpr std::size_t kMostRecordedRays = 200000;
 /// from a light are roots, too, the first of them; they bring nothing back.
 struct RayTree {
   int x = 0, y = 0, sample = 0;
-  int moment = -1;  ///< of those while the shutter is open; -1: there is but one
+  int moment = -1;  ///< number of the moment while the shutter is open; -1: there is but one
   std::vector<RayNode> nodes;
 };
 inline const RayNode& rayAt(const RayTree& tree, int ray) {
   return tree.nodes[static_cast<std::size_t>(ray)];
 }
 
-/// What the node's radiance is by its recorded terms and those of the rays below it.
+/// The radiance of the node by its recorded terms and those of the rays below it.
 Color recomputed(const RayTree& tree, int node = 0);
 
 /// Every node's radiance is recomputed() of it, bit for bit; a NaN equals a NaN.
@@ -277,7 +278,7 @@ void weigh(RayTree& tree, Real cameraWeight);
 
 /// The term of the ray's parent that its radiance went into; null for the camera ray.
 const Term* termOf(const RayTree& tree, int node);
-/// The light that a ray asks, as an index into Scene::lights; nothing for other rays.
+/// The light that a ray samples, as an index into Scene::lights; nothing for other rays.
 std::optional<std::uint32_t> lightOf(const RayTree& tree, int node);
 
 /// "wall", or "sphere (scene.ray:12)" for an object without a name.
@@ -290,7 +291,7 @@ std::string fillingText(const Scene& scene, std::uint32_t object, Real priority)
 std::string sentence(const Ignored& ignored, const Scene& scene);
 /// "red", "material 3" for one without a name, "clear" for MaterialMix::kClear.
 std::string materialName(const Scene& scene, std::uint32_t material);
-/// The same of one, or "red 0.25 + blue 0.75".
+/// The name of a material, or "red 0.25 + blue 0.75".
 std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& materials);
 /// Its name, or "point_light (scene.ray:7)".
 std::string lightName(const Scene& scene, std::uint32_t light);

@@ -63,7 +63,7 @@ class TileRenderer {
   Statistics statistics() const {
     Statistics sum = tracer_.statistics();
     if (chainTracer_) sum += chainTracer_->statistics();
-    sum.badSamples += badCount_;  // of chains they are counted already
+    sum.badSamples += badCount_;  // those of chains are counted already
     return sum;
   }
   std::vector<BadSample>& badSamples() { return bad_; }
@@ -144,7 +144,7 @@ class TileRenderer {
     return {place.x, place.y, static_cast<int>(at - corners.begin())};
   }
 
-  /// Of the area, in the tiles before that one.
+  /// The offset of the area, in the tiles before that one.
   std::int64_t pixelsBefore(std::int64_t tile) {
     if (pixelsBefore_.empty())
       for (std::int64_t i = 0, pixels = 0; i <= film_.tiles(); ++i) {
@@ -241,7 +241,7 @@ RenderResult render(std::span<const Moment> moments, const Settings& settings, F
   const int threads = settings.threads > 0 ? settings.threads : hardwareThreads();
   std::vector<std::unique_ptr<TileRenderer>> workers(static_cast<std::size_t>(threads));
   const std::vector<Wave>& waves = film.waves();
-  std::size_t firstWave = 0;  // of the chunks in work
+  std::size_t firstWave = 0;  // first wave of the current chunks
   const auto waveOf = [&](std::int64_t chunk) {
     return firstWave + static_cast<std::size_t>(chunk / film.tiles());
   };

@@ -23,9 +23,9 @@ enum class End { finished, cancelled, timeLimit, outOfMemory, failed };
 
 struct RenderResult {
   End end = End::finished;
-  std::string failure;  ///< of End::failed: what went wrong
+  std::string failure;  ///< message of End::failed: what went wrong
   Statistics statistics;
-  Real brightnessError = 0;           ///< of chains: Metropolis::brightnessError()
+  Real brightnessError = 0;           ///< brightness error of chains: Metropolis::brightnessError()
   std::vector<BadSample> badSamples;  ///< in picture order, the first kMostBadSamples
 };
 inline constexpr std::size_t kMostBadSamples = 1000;
@@ -59,7 +59,7 @@ Subdivision subdivisionOf(const Settings& settings, const Size& size);
 /// were begun are finished, unless they take longer than the job's patience. What is finished survives a
 /// failure too. The same bits for any number of threads.
 RenderResult render(std::span<const Moment> moments, const Settings& settings, Film& film, Job& job);
-/// The same of one moment, with the integrator of the settings, made for it.
+/// Renders one moment, with the integrator of the settings, made for it.
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job);
 
 }  // namespace trace

@@ -61,7 +61,7 @@ constexpr std::uint32_t spread(std::uint32_t v) {
 /// of Pixels, 2020: one sequence for all pixels, along a curve whose quarters stand in random order at each
 /// level. What a pixel gets too much, its neighbours get too little.
 Vec2 bluePair(const Draw& d) {
-  int digits = 0;  // of base 4, that hold the number of a sample
+  int digits = 0;  // digits in base 4 of the number of a sample
   while ((std::int64_t{1} << (2 * digits)) < d.rules.samples()) ++digits;
   const std::uint64_t place = std::uint64_t{spread(number(d.x)) | spread(number(d.y)) << 1} << (2 * digits);
   const std::uint64_t index = place | number(d.k);

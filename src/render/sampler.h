@@ -23,7 +23,7 @@ struct Draw {
   int x, y, k;           ///< the pixel and its sample
   std::uint64_t branch;  ///< a hash of the branch and the dimension
   std::uint64_t pixel;   ///< a hash of both and of the pixel
-  /// The same where another pair is drawn.
+  /// The sampler where another pair is drawn.
   Draw beside() const { return {rules, x, y, k, mixBits(branch ^ kBeside), mixBits(pixel ^ kBeside)}; }
 
  private:
@@ -49,12 +49,12 @@ struct GeneratorRow {
 std::span<const GeneratorRow> generators();
 const GeneratorRow& generatorOf(const Settings& settings);
 
-/// What the samplers of a picture share.
+/// The data that the samplers of a picture share.
 class SampleRules {
  public:
   SampleRules(const Settings& settings, const Size& size);
 
-  int samples() const { return samples_; }  ///< of each pixel
+  int samples() const { return samples_; }  ///< number of samples of each pixel
   int grid() const { return grid_; }        ///< the square root of samples(), if the generator is square
   const Size& size() const { return size_; }
   const GeneratorRow& generator() const { return *generator_; }
@@ -65,7 +65,7 @@ class SampleRules {
   /// Where in the picture sample k of the pixel lies, from 0 to 1, (0, 0) at the bottom left, and what it
   /// counts in the pixel. Row y = 0 is the top. `u` places it in the pixel, unless onGrid().
   FilmSample film(int x, int y, int k, const Vec2& u) const;
-  /// What such a sample counts, where it is not a part of a mean: so much more.
+  /// The weight of such a sample, where it is not a part of a mean: so much more.
   Real filterWeight() const { return filter_.weight(); }
   /// Calls use(x, y, share) for each pixel that sees that place of the picture: light that falls there and is
   /// spread evenly over the picture counts so much for the pixel.
@@ -88,7 +88,7 @@ class SampleRules {
   Vec2 middle(int x, int y) const {
     return {(x + 0.5) / size_.width, (size_.height - 1 - y + 0.5) / size_.height};
   }
-  /// The same of a corner of a pixel.
+  /// The sampler of a corner of a pixel.
   Vec2 corner(const CornerPlace& place) const;
   /// From a sample to the next on the right and above, on the average.
   Vec2 spacing() const {

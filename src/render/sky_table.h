@@ -28,7 +28,7 @@ class SkyTable {
   static std::size_t cell(int row, int column) { return static_cast<std::size_t>(row * kColumns + column); }
 
   std::vector<float> sums_;    ///< in each row, of the cells up to and with this one
-  std::vector<Real> rowSums_;  ///< of the rows up to and with this one
+  std::vector<Real> rowSums_;  ///< row sums of the rows up to and with this one
 };
 
 }  // namespace trace

@@ -1,4 +1,4 @@
-// What a render counts. Each worker counts for itself; the sums are the same for any number of threads.
+// Counts of a render. Each worker counts for itself; the sums are the same for any number of threads.
 #pragma once
 
 #include <array>
@@ -11,24 +11,24 @@
 
 namespace trace {
 
-/// What queries count. `Nodes`: NodeCount, or NodeWatch for who wants to see the nodes
+/// Counts of queries. `Nodes`: NodeCount, or NodeWatch for those who observe the nodes
 /// (render/visited_boxes.h).
 template <class Nodes>
 struct QueryCounts {
   static constexpr std::size_t kShapes = kMostShapeTypes;
 
   std::array<std::uint64_t, kShapes> tests{}, hits{};  ///< per shape, in the order of shapeTypes()
-  Nodes nodes{};                                       ///< of hierarchies, visited
+  Nodes nodes{};                                       ///< nodes of hierarchies, visited
   bool operator==(const QueryCounts&) const = default;
 };
 
 struct Statistics : QueryCounts<NodeCount> {
   std::array<std::uint64_t, kRayKinds> rays{};  ///< by RayKind
-  std::uint64_t depths = 0;                     ///< of all but shadow rays, summed: a camera ray has depth 0
-  std::uint64_t badSamples = 0;                 ///< NaN or infinite, dropped
-  std::array<std::uint64_t, kMoveKinds> moves{}, movesKept{};  ///< of Markov chains, by MoveKind
-  /// What --firefly-limit took from samples: a sum of luminances in parts of kLightParts, which no order
-  /// changes.
+  std::uint64_t depths = 0;      ///< sum of the depths of all but shadow rays: a camera ray has depth 0
+  std::uint64_t badSamples = 0;  ///< NaN or infinite, dropped
+  std::array<std::uint64_t, kMoveKinds> moves{}, movesKept{};  ///< by MoveKind
+  /// The light that --firefly-limit removed from samples: a sum of luminances in parts of kLightParts, which
+  /// no order changes.
   std::uint64_t lightRemoved = 0;
   static constexpr double kLightParts = 1 << 20;
 

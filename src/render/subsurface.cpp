@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shading/fresnel.h"
+#include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -29,7 +30,7 @@ PerColor perUnit(const Color& perMillimetre, const Subsurface& said) {
   return channels(perMillimetre * said.millimetres);
 }
 
-/// What the tracer has met there, seen from outside.
+/// The surface that the tracer has hit there, seen from outside.
 std::optional<Entrance> seen(Tracer& tracer, const Vec3& from, const Ray& foundOn, const Found& found,
                              const Color& weight, const BodyTerm& how) {
   const SurfacePoint place = tracer.world().surface(foundOn, found);
@@ -64,7 +65,7 @@ std::optional<Entrance> byProfile(const Interaction& at, const std::array<Profil
   const Real r = profiles[channel].distance(disk.x), phi = 2 * kPi * disk.y;
   const Vec3 middle = here.point + (across * std::cos(phi) + aside * std::sin(phi)) * r;
 
-  // The line from one side of the body to the other; of one without end, as far as light gets.
+  // The line from one side of the body to the other; of an infinite one, as far as light gets.
   const Box3& box = world.boundsOf(at.hit.object);
   Real half = 0;
   if (box.empty()) {
@@ -127,7 +128,7 @@ struct WalkEnd {
   Ray ray;
   Found wall;
   SurfacePoint place;
-  Real letOut;  ///< of what comes there so
+  Real letOut;  ///< transmittance to the outside
   Color weight;
   int steps;
 };

@@ -26,7 +26,7 @@ namespace trace {
 struct Entrance {
   Hit hit;       ///< seen from outside
   Ray ray;       ///< on which it is so seen
-  Color weight;  ///< of the light there in that which comes out and goes to the eye
+  Color weight;  ///< weight of the light there in that which comes out and goes to the eye
   BodyTerm how;
 };
 
@@ -42,7 +42,7 @@ struct Departure {
   Color weight;  ///< what its power is to be multiplied by
 };
 
-/// Of the photon that met the body at `at` with that power. Nothing where it does not come out.
+/// The exit of the photon that hit the object at `at` with that power. Nothing where it does not come out.
 std::optional<Departure> departure(const Interaction& at, const SubsurfaceBsdf& body, const Color& power,
                                    Sampler numbers);
 

@@ -102,7 +102,7 @@ std::optional<Found> Tracer::lookAt(const Ray& ray, RayKind kind, std::uint32_t 
 }
 
 /// From the nearest surface on to the first that counts. The line of the ray is asked once for all crossings,
-/// so that what lies behind is met where it is met without the surfaces before it.
+/// so that what lies behind is hit where it is hit without the surfaces before it.
 std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside,
                                   Real chance) {
   if (!ignored(ray, found, inside, chance)) return found;
@@ -199,7 +199,7 @@ Color Tracer::visible(const Vec3& from, const Vec3& toLight, Real distance, cons
   return seen;
 }
 
-/// What a ray from a surface starts in, on whose side that a ray came from it is `inside`.
+/// The medium at the start of a ray from a surface, on whose side that a ray came from it is `inside`.
 Interfaces Tracer::startOn(const Hit& from, const Ray& ray, const Interfaces& inside) {
   Interfaces start = inside;
   if (from.leaving == (dot(ray.direction, from.surface.normal) > 0)) {  // on through the surface
@@ -221,7 +221,7 @@ void Tracer::collect(const Ray& ray, Real tMost, Faces faces, QueryCounts<Nodes>
   sortCrossed();
 }
 
-/// The same for light; true if something lets none through.
+/// Crossings on the way of light; true if something blocks it.
 template <class Nodes>
 bool Tracer::occluded(const Ray& ray, Real tMost, QueryCounts<Nodes>& counts) {
   crossed_.clear();
@@ -244,7 +244,7 @@ void Tracer::sortCrossed() {
   crossed_.erase(std::unique(crossed_.begin(), crossed_.end(), same), crossed_.end());
 }
 
-/// What the crossings leave of it.
+/// The transmittance of the crossings.
 Color Tracer::filtered(const Ray& ray, Real distance, Interfaces* inside) {
   Color color(1);
   Real last = 0;

@@ -35,15 +35,15 @@ class Tracer {
   /// `distance` (may be infinite): 0 behind anything opaque, filtered by what is transmissive. `inside` is
   /// what the ray that hit it is in.
   Color visible(const Hit& from, const Ray& ray, Real distance, const Interfaces& inside);
-  /// The same from a point in the open, in what is `inside`.
+  /// Casts a ray from a point in the open, in what is `inside`.
   Color visible(const Vec3& from, const Vec3& toLight, Real distance, const Interfaces& inside);
-  /// What a ray would meet first, but for holes; counted as of that kind, and not recorded.
+  /// The first hit of a ray, except for holes; counted as of that kind, and not recorded.
   std::optional<Found> look(const Ray& ray, RayKind kind) {
     count(kind);
     return behindHoles(ray, kind, statistics_);
   }
 
-  /// What a ray that is not recorded meets first before tMost, in a scene without holes and nested glass.
+  /// The first hit before tMost of a ray that is not recorded, in a scene without holes and nested glass.
   std::optional<Found> nearest(const Ray& ray, RayKind kind, Real tMost) {
     count(kind);
     return world_.closest(ray, facesSeenBy(kind), statistics_, tMost);
@@ -56,10 +56,10 @@ class Tracer {
   Hit meet(const Ray& ray, RayKind kind, const Found& found);
   /// The ray recorded last is drawn from one place to the other.
   void drawFrom(const Vec3& from, const Vec3& to);
-  /// What passes of the light of the shadow ray asked last, of which media on its way let `passes` through.
+  /// Applies the media's transmittance `passes` to the last shadow ray, which `passed`.
   Color veiled(const Color& passed, const Color& passes, std::uint32_t medium, Real distance);
 
-  /// What a ray that starts at the point is inside of.
+  /// The media that a ray from the point starts in.
   const Interfaces& interfacesAt(const Vec3& point);
   /// While it lives, rays are roots of the tree, one after the other; then things are as before.
   class Aside {
@@ -102,12 +102,12 @@ class Tracer {
     return terms.transmits() && !gathers(bsdf) &&
            (terms.passage == Passage::straight || settings_.glassShadows != GlassShadows::black);
   }
-  /// What fills the body that was hit, where its surface looks like `terms`.
+  /// The interior of the object that was hit, where its surface looks like `terms`.
   Filling filling(const Hit& hit, const WhittedTerms& terms) const {
     return world_.filling(hit, terms, settings_);
   }
 
-  /// Does the camera ray meet something nearer than the camera sees?
+  /// Does the camera ray hit something nearer than the camera sees?
   bool tooNear(const Ray& ray) const;
 
   /// The query of a recorded ray once more, for someone who watches it.
@@ -169,7 +169,7 @@ class Tracer {
            kind == IntegratorKind::bdpt;
   }
   /// Photons, or paths from lights, bring the light that the glass bends. Whitted's bring it to surfaces
-  /// only. Of rough glass, rays that are followed into its lobe ask lights where they meet it: a shadow ray
+  /// only. Of rough glass, rays that are followed into its lobe sample lights where they hit it: a shadow ray
   /// through it would count them twice.
   bool gathers(const Bsdf& bsdf) const {
     if (joins_ || (followsLobes() && isGlossy(bsdf))) return true;
@@ -189,8 +189,8 @@ class Tracer {
   Statistics statistics_;
   bool midair_ = false;                               // the shadow ray starts where no surface is
   bool joins_ = false;                                // it ends at a vertex of another path
-  std::vector<Found> crossed_;                        // of one ray; kept to save allocations
-  std::optional<std::pair<Vec3, Interfaces>> start_;  // of the last point that was asked for
+  std::vector<Found> crossed_;                        // crossings of one ray; kept to save allocations
+  std::optional<std::pair<Vec3, Interfaces>> start_;  // start at the last point that was asked for
 };
 
 }  // namespace trace

@@ -101,7 +101,7 @@ Offer Chains::offer(PixelTracer& tracer, Path& here, Numbers& numbers, MoveKind&
   return offer;
 }
 
-/// Where nothing else can change the path, it is thrown anew.
+/// Where nothing else can change the path, it is replaced.
 Real Chains::anywhereChance(const std::vector<MoveKind>& kinds) const {
   return kinds.empty() ? 1 : settings_.moveAnywhere;
 }

@@ -20,7 +20,7 @@ class Chains {
   Real brightness(PixelTracer& tracer, std::uint64_t seed, std::uint32_t sample) const;
   /// How bright the picture is by the path that is made from nothing with these numbers: over its density.
   Real light(PixelTracer& tracer, std::uint64_t seed) const;
-  /// What a chain leaves in the picture that starts at that path, in so many moves; `mean` is how bright the
+  /// Adds the splats of a chain that starts at that path, in that many moves; `mean` is how bright the
   /// picture is.
   std::vector<Splat> chain(PixelTracer& tracer, std::uint64_t start, std::uint64_t seed, std::int64_t moves,
                            Real mean, const ChainWatch& watch) const;
@@ -39,7 +39,7 @@ class Chains {
   const Settings& settings_;
   Tile area_;
   SampleRules rules_;
-  std::deque<Stage> stages_;  ///< of each moment
+  std::deque<Stage> stages_;  ///< stages of each moment
 };
 
 }  // namespace trace::veach

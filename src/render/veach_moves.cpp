@@ -26,14 +26,14 @@ Real halved(std::size_t times) {
   return times < 60 ? 1 / static_cast<Real>(std::uint64_t{1} << times) : 0x1p-60;
 }
 
-/// How likely so many places in a row are taken out, of all `places` but for one: a single one more often
+/// How likely so many places in a row are taken out, of all `places` except for one: a single one more often
 /// than others, none to put some in (Veach's p_d).
 Real takenOut(std::size_t n, std::size_t places) {
   const Real all = 1.25 - halved(places - 1);  // 1/4 + 1/2 + 1/4 + 1/8 ...
   return (n == 0 ? 0.25 : halved(n)) / all;
 }
 
-/// Where they may begin. The lens and what shines stay unless others are put in.
+/// Where they may begin. The lens and the emitter stay unless others are put in.
 std::size_t positions(std::size_t n, std::size_t places) { return n == 0 ? places - 1 : places - n + 1; }
 
 }  // namespace
@@ -105,7 +105,7 @@ Real Moves::density(Path& path, const Kept& kept, std::size_t placesBefore) cons
   const bool openEnd = kept.atLight == 0;
   Real eye = 1, sum = 0;
   for (std::size_t i = 0; i <= added; ++i) {
-    const std::size_t last = kept.atLens + i - 1;  // of the camera's side
+    const std::size_t last = kept.atLens + i - 1;  // last of the camera's side
     if (i > 0 && last > 0) eye *= path.nodes[last - 1].eye;
     if (i < first) continue;
     const std::size_t fromLight = added - i;
@@ -135,11 +135,11 @@ Real Moves::anywhereDensity(Path& path) const { return density(path, {}, 0); }
 struct Moves::Walk {
   struct Step {
     Target target;
-    RayKind leaves = RayKind::bounce;  ///< how the path goes on from there toward the light
+    RayKind leaves = RayKind::bounce;  ///< how the path continues from there toward the light
   };
   std::vector<Step> steps{};
   std::unique_ptr<Vertex> at{};        ///< as the walk met the last one
-  RayKind fromKept = RayKind::bounce;  ///< how the path goes on from the first place that is kept
+  RayKind fromKept = RayKind::bounce;  ///< how the path continues from the first place that is kept
 };
 
 /// One more place from the camera on, or an end.
@@ -159,7 +159,7 @@ bool Moves::walkFromEye(Path& path, std::size_t places, bool toEnd) {
   return !toEnd || paths_.endAtLamp(path);
 }
 
-/// The end is asked for: an object that shines, the sky or a light of the scene.
+/// The end is asked for: an emissive object, the sky or a light of the scene.
 bool Moves::askEnd(Path& path) {
   const Vertex* at = path.nodes.back().vertex.get();
   if (!at || !at->place.joins()) return false;
@@ -178,7 +178,7 @@ bool Moves::askEnd(Path& path) {
   return stage_.lamps.met(*place, path.nodes.back().vertex->hit) && paths_.endAtLamp(path);
 }
 
-/// The walk goes on from the place where it is, toward the camera.
+/// The walk continues from the place where it is, toward the camera.
 bool Moves::goOn(Walk& walk, const Vertex& from, RayKind& leaves) {
   const auto next = from.onward.choose(numbers_.next(), lobes_, true);
   if (!next) return false;
@@ -239,7 +239,7 @@ bool Moves::walkFromLight(Walk& walk, Path& from, const Kept& kept, std::size_t 
   return true;
 }
 
-/// The path goes on over the places of the walk to those that are kept.
+/// The path continues over the places of the walk to those that are kept.
 bool Moves::join(Path& path, const Walk& walk, const Path& from, const Kept& kept) {
   RayKind kind = path.nodes.back().vertex ? RayKind::bounce : RayKind::camera;
   for (std::size_t i = walk.steps.size(); i-- > 0; kind = walk.steps[i].leaves)
@@ -287,7 +287,7 @@ Path Moves::anywhere() {
   return path;
 }
 
-/// With which fromCamera() finds the path: its walk meets what shines, or asks for it.
+/// With which fromCamera() finds the path: its walk meets the emitter, or asks for it.
 Real Moves::cameraDensity(const Path& path) const {
   const std::size_t end = path.last();
   Real eye = 1;

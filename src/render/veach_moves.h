@@ -56,7 +56,7 @@ class Moves {
   /// Its density.
   Real anywhereDensity(Path& path) const;
 
-  /// Follows one path from the camera, and at each of its places looks for what shines and asks for it: how
+  /// Follows one path from the camera, and at each of its places looks for emitters and asks for it: how
   /// bright the picture is by all of these, weighed by the balance heuristic beside anywhere(). Together with
   /// anywhereShare() of such a path the mean is the brightness of the picture.
   Real fromCamera();
@@ -67,12 +67,12 @@ class Moves {
   /// The density with which the mutation that keeps these places makes such a path of one of so many places.
   Real density(Path& path, const Kept& kept, std::size_t placesBefore) const;
 
-  /// Perturbations keep by which rays a path goes on. They move a part of it a little and join it again, and
-  /// know where they can. Moved is the place of the film, behind which the path goes by mirrors and glass to
-  /// the first place that it may join (11.4.3.1);
+  /// Perturbations keep by which rays a path continues. They move a part of it a little and join it again,
+  /// and know where they can. Moved is the place of the film, behind which the path goes by mirrors and glass
+  /// to the first place that it may join (11.4.3.1);
   bool hasLens(const Path& path) const;
   Offer lens(const Path& from);
-  /// the direction from which mirrors or glass throw light at the place that the camera sees (11.4.3.2);
+  /// the direction from which mirrors or glass send light to the place that the camera sees (11.4.3.2);
   bool hasCaustic(const Path& path) const;
   Offer caustic(Path& from);
   /// the place of the film, and directions of all places behind it from where mirrors or glass lead on

@@ -155,7 +155,7 @@ bool Paths::attach(Path& path, RayKind kind, const Path& other, std::size_t firs
 
 // --- what a path brings -----------------------------------------------------------------------------------
 
-/// What arrives of the light that is asked, scattered.
+/// The scattered light that arrives from the sampled light.
 Color Paths::fromLight(Path& path) const {
   const World& world = tracer.world();
   const Vertex& from = path.vertex(path.last() - 1);

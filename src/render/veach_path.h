@@ -1,15 +1,15 @@
 // A path of light as a list of places, and what it brings: for chains that change paths place by place (Veach
 // and Guibas, Metropolis Light Transport, 1997; Veach 1997, chapters 8 and 11).
 //
-//   z0 the lens   z1 ... z(k-1) surfaces   zk what shines
+//   z0 the lens   z1 ... z(k-1) surfaces   zk the emitter
 //
 // A path brings what --integrator path brings along it,
 //
 //   f = W  product of scattered(z1 ... z(k-1))  light
 //
-// as light per area of its places. Where it goes on by chance, a density over directions becomes one over
+// as light per area of its places. Where it continues at random, a density over directions becomes one over
 // areas by the geometric term G of the edge; a mirror or glass hands it on to the place behind it, whatever
-// the surfaces' curvature does. Each G stands in f and, but for the edge that joins the two halves, in the
+// the surfaces' curvature does. Each G stands in f and, except for the edge that joins the two halves, in the
 // density of a path: so f and densities are kept without it, as if directions were counted by their cosine
 // to the surface (Veach 1997, sections 8.2 and 11.4). Places of mirrors and glass lie on no area of their
 // own: their part in a density is the chance of the choice of that ray.
@@ -27,7 +27,7 @@
 
 namespace trace::veach {
 
-/// What paths of one moment ask of the scene.
+/// The scene data that paths of one moment use.
 struct Stage {
   Stage(const World& world, const Settings& settings, const Tile& area, const Size& size);
 
@@ -36,15 +36,15 @@ struct Stage {
     return place.x >= low.x && place.x <= high.x && place.y >= low.y && place.y <= high.y;
   }
   Real filmArea() const { return (high.x - low.x) * (high.y - low.y); }
-  /// How often a place asks for objects that shine and for the sky, and not for a light of the scene.
+  /// How often a place samples emissive objects and for the sky, and not for a light of the scene.
   Real lampShare() const { return lamps.empty() ? 0 : lights == 0 ? 1 : 0.5; }
 
   Lamps lamps;
   CameraImportance camera;
-  Vec2 low, high;      ///< of the film
-  Vec2 side;           ///< of a square of the film's area, in its widths and heights
-  std::size_t lights;  ///< of the scene
-  int mostPlaces;      ///< of a path, its ends among them
+  Vec2 low, high;      ///< low and high of the film
+  Vec2 side;           ///< side of a square of the film's area, in its widths and heights
+  std::size_t lights;  ///< number of lights of the scene
+  int mostPlaces;      ///< largest number of vertices of a path, its ends among them
 };
 
 /// A surface where a ray has arrived.
@@ -69,19 +69,19 @@ struct Vertex {
   Onward onward;
 };
 
-/// A place of a path, and how it goes on from there toward the light.
+/// A place of a path, and how it continues from there toward the light.
 struct Node {
-  std::shared_ptr<const Vertex> vertex{};  ///< none: the lens, or what shines and is no surface
+  std::shared_ptr<const Vertex> vertex{};  ///< none: the lens, or the emitter and is no surface
   RayKind leaves = RayKind::camera;        ///< by which ray
   bool asked =
       false;        ///< lights of the scene were asked before the ray that arrives, which does not see them
-  Color factor{1};  ///< of f: what is scattered, over the cosine
-  Real eye = 0;     ///< density of going on so
-  Real kappa = 1;   ///< of mirrors and glass: light's part of it over the part of what the camera sees
+  Color factor{1};  ///< factor of f: what is scattered, over the cosine
+  Real eye = 0;     ///< density of continuing so
+  Real kappa = 1;   ///< kappa of mirrors and glass: light's part of it over the part of what the camera sees
   Real edge = 0;    ///< G of the way to the next place; 0 from mirrors and glass
   // Worked out where somebody asks.
   std::shared_ptr<const Vertex> turned{};  ///< the place as a path from the light meets it
-  std::optional<Real> light{};             ///< density of going on toward the camera
+  std::optional<Real> light{};             ///< density of continuing toward the camera
 };
 
 struct Path {
@@ -104,13 +104,13 @@ struct Path {
   Vec2 film{}, lens{};
   Ray ray{};  ///< the camera's
   std::vector<Node> nodes{};
-  End end = End::open;  ///< what shines: an object, a light that is seen or asked, or the sky
+  End end = End::open;  ///< the emitter: an object, a light that is seen or asked, or the sky
   Vec3 towardEnd{};     ///< if that is no surface
   Color shines{};
-  std::size_t light = 0;  ///< of the scene, if one is asked
+  std::size_t light = 0;  ///< light of the scene, if one is asked
   Vec2 onLight{};
   Color f{};
-  Real brightness = 0;  ///< of f
+  Real brightness = 0;  ///< brightness of f
 };
 
 /// Where a ray is to arrive.
@@ -130,7 +130,7 @@ class Paths {
 
   /// The path is the lens, and looks at the place of the film.
   bool begin(Path& path, const Vec2& film, const Vec2& lens) const;
-  /// It goes on by such a ray, into the lobe in that direction, to the next surface or to an end that is
+  /// It continues by such a ray, into the lobe in that direction, to the next surface or to an end that is
   /// none.
   bool follow(Path& path, RayKind kind, const Vec3& direction = {}) const;
   /// The same, to the target, at which the camera is aimed.
@@ -139,18 +139,18 @@ class Paths {
   bool endAtLamp(Path& path) const;
   /// It ends at a light of the scene.
   bool endAtLight(Path& path, std::size_t light, const Vec2& onLight) const;
-  /// Joins the place where the path is with that of the other and all behind it, where the other goes on by
+  /// Joins the place where the path is with that of the other and all behind it, where the other continues by
   /// such a ray.
   bool attach(Path& path, RayKind kind, const Path& other, std::size_t first, RayKind leaves) const;
 
   /// Works out what has changed: the places `first` to `last`, and f.
   bool weigh(Path& path, std::size_t first, std::size_t last) const;
-  /// The same of one place, behind which the path has another.
+  /// Evaluates one vertex, behind which the path has another.
   bool weighPlace(Path& path, std::size_t i) const;
 
   /// The place as a path from the light meets it; none where that cannot be.
   const Vertex* turned(Path& path, std::size_t i) const;
-  /// The density of going on from there toward the camera.
+  /// The density of continuing from there toward the camera.
   Real lightDensity(Path& path, std::size_t i) const;
   /// That of asking for the end, at the place before it.
   Real askDensity(const Path& path) const;

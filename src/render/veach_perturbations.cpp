@@ -40,9 +40,9 @@ bool Moves::hasLens(const Path& path) const {
 }
 
 /// The place of the film is moved, and so are the directions of all places before `joint` from where paths do
-/// not go on by mirrors and glass; from there on the rest is the same. T is the product of the densities of
-/// these directions, over G of the edge that joins the path again; that of the film's place is the same both
-/// ways, and the camera's density stands in f, too.
+/// not continue by mirrors and glass; from there on the rest is the same. T is the product of the densities
+/// of these directions, over G of the edge that joins the path again; that of the film's place is the same
+/// both ways, and the camera's density stands in f, too.
 Offer Moves::fromFilm(const Path& from, std::size_t joint) {
   Offer offer;
   Path& path = offer.path;
@@ -76,7 +76,7 @@ Offer Moves::fromFilm(const Path& from, std::size_t joint) {
   return offer;
 }
 
-/// Joined is the first place from where the path does not go on by mirrors and glass.
+/// Joined is the first place from where the path does not continue by mirrors and glass.
 Offer Moves::lens(const Path& from) {
   std::size_t joint = 1;
   while (joint < from.last() && !isSpread(from, joint)) ++joint;
@@ -151,7 +151,7 @@ bool Moves::hasMultiChain(const Path& path) const {
   return first + 1 < end && !isSpread(path, first + 1);
 }
 
-/// Joined is the first place from where the path goes on by none, to a place from where it does not either.
+/// Joined is the first place from where the path continues by none, to a place from where it does not either.
 Offer Moves::multiChain(const Path& from) {
   const std::size_t end = from.last();
   const auto leads = [&](std::size_t i) { return i + 1 < end && !isSpread(from, i + 1); };  // to a mirror

@@ -11,7 +11,7 @@ Term::Kind termOf(RayKind kind) {
                                        : Term::Kind::refraction;
 }
 
-/// What the light that is asked gives, by a shadow ray.
+/// The light of the sampled light, by a shadow ray.
 void addLight(Gather& sum, const Path& path, const Interaction& at) {
   Tracer& tracer = sum.tracer();
   const PathPlace place(at);

@@ -1,4 +1,4 @@
-// The rays of a path, for who wants to see them.
+// The rays of a path, for those who show them.
 #pragma once
 
 #include "render/veach_path.h"

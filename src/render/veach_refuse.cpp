@@ -1,4 +1,4 @@
-// What chains that change paths place by place do not know.
+// Features that Veach's mutations do not support.
 #include "base/error.h"
 #include "render/veach_path.h"
 
@@ -9,8 +9,8 @@ void refuseUnknown(const World& world, const Settings& settings) {
     throw Error(Fault::usage, "--chains veach does not know " + what, "--chains bdpt and --chains path do");
   };
   if (settings.fog > 0) refuse("fog");
-  if (!world.media().empty()) refuse("media that fill bodies");
-  if (world.hasSubsurface()) refuse("bodies in which light spreads");
+  if (!world.media().empty()) refuse("media inside objects");
+  if (world.hasSubsurface()) refuse("subsurface scattering");
   if (world.hasHoles()) refuse("surfaces that are there in part (opacity)");
   if (settings.wavelengths > 1) refuse("light that glass splits (--wavelengths)");
   if (settings.outlines > 0) refuse("--outlines");

@@ -121,7 +121,7 @@ Interfaces World::interfacesAt(const Vec3& point, const Settings& settings) cons
   Interfaces inside(settings.airIndex, nestedGlass_);
   const auto mayHold = [&](std::uint32_t object) {
     const Box3& bounds = objects_[object].bounds;
-    return bounds.empty() || bounds.contains(point);  // of what has no end there are none
+    return bounds.empty() || bounds.contains(point);  // an infinite object has no bounds
   };
   if (std::none_of(glass_.begin(), glass_.end(), mayHold)) return inside;
   // A line from inside a body leaves it before it enters it.

@@ -1,4 +1,4 @@
-// What rays meet: the scene baked, indexed and immutable.
+// The scene for tracing: baked, indexed and immutable.
 //
 // compile() multiplies out what a render asks again and again (inverse transforms, bounds, hierarchies,
 // generated normals) and applies the conventions that concern materials and camera. It uses the scene's own
@@ -37,8 +37,8 @@ namespace trace {
 struct Found {
   Real t = kInfinity;
   std::uint32_t object = 0;  ///< index into World::objects(), which is that of Scene::objects
-  std::uint64_t part = 0;    ///< of an analytic shape: the crossing's part; of a mesh: the triangle
-  TriangleHit triangle;      ///< of a mesh
+  std::uint64_t part = 0;    ///< the crossing's part of an analytic shape, or the triangle of a mesh
+  TriangleHit triangle;      ///< triangle of a mesh
 
   /// Nearer first; at the same distance the earlier object, then the earlier part.
   bool after(Real otherT, std::uint32_t otherObject, std::uint64_t otherPart) const {
@@ -94,7 +94,7 @@ class World {
                  VisitFound visit) const {
     crossAll<Nodes>({ray, tMost, faces, false, counts, visit});
   }
-  /// The same for light: whether an opaque object, which is not visited, or visit(Found) has ended it.
+  /// Crossings for light: whether an opaque object, which is not visited, or visit(Found) has ended it.
   template <class Nodes>
   bool occluded(const Ray& ray, Real tMost, Faces faces, QueryCounts<Nodes>& counts, VisitFound visit) const {
     return crossAll<Nodes>({ray, tMost, faces, true, counts, visit});
@@ -106,8 +106,8 @@ class World {
 
   /// The place found, in world space; `ray` is the ray that found it.
   SurfacePoint surface(const Ray& ray, const Found& found) const;
-  /// What the place is made of: the material of the object, of the part of it, or those of the corners of its
-  /// triangle.
+  /// The materials at the hit point: the material of the object, of the part of it, or those of the corners
+  /// of its triangle.
   MaterialMix materialMix(const Found& found) const {
     const Instance& instance = objects_[found.object];
     return instance.mixed ? mixOfParts(found) : MaterialMix::only(instance.material);
@@ -122,13 +122,13 @@ class World {
   }
   /// How texture coordinates and the normal change along the surface, in world space.
   SurfaceSlopes slopes(const Hit& hit) const { return slopes(hit.object, hit.part, hit.surface); }
-  /// The same of the second texture coordinates of a mesh.
+  /// Slopes of the second texture coordinates of a mesh.
   SurfaceSlopes secondSlopes(const Hit& hit) const;
   /// Where textures are asked for the place; with the footprint of the ray that has arrived there, if any.
   TexturePlace place(const Hit& hit, const Differentials* arrived = nullptr) const {
     return place(hit.object, hit.part, hit.surface, arrived);
   }
-  /// What the place does with light; textures are filtered by the footprint of the ray, if any.
+  /// The Bsdf at the hit point; textures are filtered by the footprint of the ray, if any.
   PlaceBsdf shade(const Hit& hit, const Differentials* arrived = nullptr) const {
     return shade(hit.object, hit.part, hit.materials, hit.surface, arrived);
   }
@@ -151,7 +151,7 @@ class World {
     const bool turned = dot(normal, hit.surface.shading) < 0;
     return {normal, hasGrain(bsdf) ? along(hit) : Vec3{}, turned, turned ? -hit.coat : hit.coat};
   }
-  /// What of it the rays of a light pass through.
+  /// The part of it that the rays of a light pass through.
   Color filter(const Ray& ray, const Found& found) const {
     const Color filter = whitted(*bsdfAt(ray, found)).transmissive;
     return hasHoles_ ? lerp(opacityAt(ray, found), Color(1), filter) : filter;
@@ -166,11 +166,11 @@ class World {
   bool convex(std::uint32_t object) const { return objects_[object].convex; }
   /// It encloses space; a mesh does if it is closed.
   bool solid(std::uint32_t object) const { return objects_[object].solid; }
-  /// Bodies of glass inside and across one another are told apart.
+  /// Glass objects inside and across one another are told apart.
   bool nestedGlass() const { return nestedGlass_; }
-  /// What fills the body at a place on it that looks like `terms`, by the conventions of a render.
+  /// The interior of the object at a point on it that looks like `terms`, by the conventions of a render.
   Filling filling(const Hit& hit, const WhittedTerms& terms, const Settings& settings) const;
-  /// What a ray that starts at the point is inside of.
+  /// The media that a ray from the point starts in.
   Interfaces interfacesAt(const Vec3& point, const Settings& settings) const;
   /// A body that a medium fills. One without a surface is a cloud: light meets it nowhere.
   struct MediumBody {
@@ -185,7 +185,7 @@ class World {
   /// Light goes into some body and comes out elsewhere (shading/materials/subsurface.h).
   bool hasSubsurface() const { return hasSubsurface_; }
 
-  /// No part of the object lets light through.
+  /// No part of the object transmits light.
   bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
 
   /// In world space; empty of one that is left out.
@@ -199,7 +199,7 @@ class World {
   bool isUniform(std::uint32_t object) const {
     return !objects_[object].mixed && !surfaces_[objects_[object].material].textured;
   }
-  /// What it is made of where its parts say nothing else; without its textures.
+  /// Its material where its parts say nothing else; without its textures.
   const WhittedTerms& termsOf(std::uint32_t object) const { return whitted(bsdf(objects_[object].material)); }
 
   /// Whether something of its surface mirrors or refracts rays into one direction, or, unless they `follow`
@@ -211,8 +211,8 @@ class World {
   /// The place in Scene::lights of the light of that number.
   std::uint32_t lightSource(std::size_t light) const { return lightSources_[light]; }
   const Rules& rules() const { return rules_; }
-  /// What arrives at a point of the light of that number, if nothing is in the way: from the place of the
-  /// light that `u` chooses, two numbers from 0 up to 1.
+  /// The light that arrives at a point from the light of that number, if nothing is in the way: from the
+  /// place of the light that `u` chooses, two numbers from 0 up to 1.
   std::optional<Illumination> illuminate(std::size_t light, const Vec3& from, const Vec2& u = kCenter) const {
     return match(lights_[light], [&](const auto& l) { return l.illuminate(from, rules_, u); });
   }
@@ -237,9 +237,9 @@ class World {
     return visibleLights_.empty() ? std::nullopt : nearestLamp(ray, t);
   }
   const Color& ambient() const { return ambient_; }  ///< the sum of all ambient lights
-  /// What rays see that meet nothing.
+  /// The environment that rays see when they hit nothing.
   const Outside& outside() const { return outside_; }
-  const Box3& bounds() const { return bounds_; }  ///< of the objects that have an end
+  const Box3& bounds() const { return bounds_; }  ///< bounds of the finite objects
   std::size_t objectCount() const { return objects_.size(); }
   const Bvh& hierarchy() const { return *bvh_; }  ///< over the objects that have an end
   /// The tree of an object that is a mesh; null for others and for what is left out.
@@ -285,7 +285,7 @@ class World {
   template <class Nodes>
   [[gnu::noinline]] void closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
                                         QueryCounts<Nodes>& counts, Found& best) const;
-  /// What is asked of all crossings.
+  /// The query of all crossings.
   template <class Nodes>
   struct Across {
     const Ray& ray;  ///< in world space
@@ -328,9 +328,9 @@ class World {
   void collectForms();
 
   std::vector<Instance> objects_;
-  std::shared_ptr<const Forms> forms_;  ///< of each object
+  std::shared_ptr<const Forms> forms_;  ///< forms of each object
   std::shared_ptr<const Bvh> bvh_;
-  std::vector<std::uint32_t> always_;  ///< objects that every ray may meet: those without end, which no
+  std::vector<std::uint32_t> always_;  ///< objects that every ray may meet: those infinite, which no
                                        ///< hierarchy can hold; where there is no tree, all
   static const Bsdf& clear();          ///< what is seen through as if it were not there
 
@@ -379,7 +379,7 @@ class World {
   Real pierce(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
               MaterialMix& materials) const;
 
-  std::vector<Surface> surfaces_;  ///< of the scene's materials
+  std::vector<Surface> surfaces_;  ///< surfaces of the scene's materials
   bool wantsFootprints_ = false, footprintsInUv_ = false, hasBumps_ = false, hasHoles_ = false,
        hasTwoSided_ = false;
   Rules rules_;

@@ -11,6 +11,7 @@
 #include "render/number_range.h"
 #include "render/world.h"
 #include "scene/displacement.h"
+#include "shading/materials/subsurface.h"
 
 namespace trace {
 /// Hierarchies of meshes, by the data of the scene and what displaces it.
@@ -54,7 +55,7 @@ std::vector<Material> shownAs(std::vector<Material> materials, const Settings& s
       if (textureOf(material.textures, "displacement")) material.displacement = 0;
       material.textures.clear();
     }
-    if (settings.models == Models::asSaid || std::holds_alternative<Phong>(material.model)) continue;
+    if (settings.models == Models::asSaid || material.model.is<Phong>()) continue;
     const Phong nearest = phongOf(material.model);
     for (FieldTexture& t : material.textures)
       if (t.field == kColor) t.field = kDiffuse;
@@ -66,7 +67,7 @@ std::vector<Material> shownAs(std::vector<Material> materials, const Settings& s
 
 }  // namespace
 
-/// What a World takes over from the one before: an edit in the studio changes little of a scene.
+/// The parts that a World takes over from the one before: an edit in the studio changes little of a scene.
 class World::Earlier {
  public:
   Earlier(const Compiled* before, const Scene& scene, const Settings& settings)
@@ -119,7 +120,7 @@ class World::Earlier {
   const Compiled* before_;
   const Scene& scene_;
   bool sameAccel_ = false, sameNormals_ = false;
-  std::vector<Material> materials_;  // of the scene before, as it was shown
+  std::vector<Material> materials_;  // materials of the scene before, as it was shown
   TreesOfMeshes trees_;
   MeshTrees operandTrees_;  // by the data of the scene, without generated normals
 };
@@ -142,13 +143,14 @@ TracedShape prepared(const Object& object, const MeshTrees& made) {
   }
 }
 
-/// The first material that is the same but for its name and priority.
+/// The first material that is the same except for its name and priority.
 std::vector<std::uint32_t> kindsOf(const std::vector<Material>& materials, const Rules& rules) {
   std::map<std::tuple<Real, Real, Real, Real, Real>, std::vector<std::uint32_t>> firsts;  // by some numbers
   const auto nameless = [](Material material) {
     material.name.clear();
-    match(material.model, [](auto& model) {
-      if constexpr (requires { model.priority; }) model.priority = 0;
+    editEachField(material.model, [](const ModelField& field, auto& value) {
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real>)
+        if (field.keyword == "priority") value = 0;
     });
     return material;
   };
@@ -193,7 +195,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                                material.opacity, hasHoles, twoSided});
     world.hasTwoSided_ |= twoSided;
     world.hasHoles_ |= hasHoles;
-    world.hasSubsurface_ |= std::holds_alternative<Subsurface>(material.model);
+    world.hasSubsurface_ |= material.model.is<Subsurface>();
   }
   world.nestedGlass_ = settings.nestedGlass == NestedGlass::on ||
                        (settings.nestedGlass == NestedGlass::byPriority &&
@@ -256,7 +258,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     }
     if (flat)  // stays, for the numbering of objects; its empty bounds are never met
       messages.warn(object.place, "the object's transform squeezes it flat, so it is left out");
-    std::vector<std::uint32_t> used{object.material};  // of all its parts
+    std::vector<std::uint32_t> used{object.material};  // materials used by all its parts
     Box3 box;
     if (const auto shared = instance.shape.mesh()) {
       const Displacement displacement(*shared, object.material, materials);

@@ -1,4 +1,4 @@
-// What the lens of a World's camera is focused on (docs/lens.md).
+// The focus of the lens of a World's camera (docs/lens.md).
 #include <set>
 
 #include "base/text.h"

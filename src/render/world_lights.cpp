@@ -42,7 +42,7 @@ std::vector<bool> litBy(const LightLinks& links, const std::vector<Object>& obje
 void World::addLights(const Scene& scene, const Settings& settings, Messages& messages) {
   LeftOut leftOut("this light");
   std::vector<LightReach> reaches;
-  std::vector<Box3> boxes;  // of the visible ones
+  std::vector<Box3> boxes;  // boxes of the visible ones
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const LightSource& source = scene.lights[i];
     if (!isInRange(source.light)) {
@@ -71,7 +71,7 @@ void World::addLights(const Scene& scene, const Settings& settings, Messages& me
 
 std::optional<World::Lamp> World::nearestLamp(const Ray& ray, Real t) const {
   std::optional<Lamp> nearest;
-  std::uint32_t first = 0;  // of equals the one listed first
+  std::uint32_t first = 0;  // the first listed among equals
   NodeCount nodes;
   visibleBoxes_->query(ray.origin, ray.direction, t, true, nodes, [&](std::uint32_t item) {
     const std::uint32_t number = visibleLights_[item];

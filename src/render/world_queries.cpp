@@ -1,4 +1,4 @@
-// What a ray asks of the World: one of the two files that see the structs of all shapes, so that the way from
+// Queries of the World by rays: one of the two files that see the structs of all shapes, so that the way from
 // the hierarchy to a crossing is inlined for each. Forms lie side by side, without a pointer to follow.
 #include "base/budget.h"
 #include "base/match.h"
@@ -21,7 +21,7 @@ void World::collectForms() {
 
 namespace {
 
-/// The nodes of a mesh are told from those of the scene where somebody looks at them.
+/// The nodes of a mesh are distinguished from those of the scene for observers.
 void enter(NodeCount&, std::uint32_t) {}
 void enter(NodeWatch& nodes, std::uint32_t object) { nodes.owner = object; }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "geometry/mesh/mesh_displace.h"
+#include "shading/textures/formula.h"
 
 namespace trace {
 
@@ -26,13 +27,12 @@ Displacement::Displacement(const MeshData& mesh, std::uint32_t material,
 bool Displacement::wantsUv() const {
   return std::any_of(parts_.begin(), parts_.end(), [](const Part& part) {
     // A formula does not say whether it looks at them.
-    return part.texture && !std::holds_alternative<Formula>((*part.texture)->model) &&
-           trace::wantsUv(*part.texture);
+    return part.texture && !(*part.texture)->model.is<Formula>() && trace::wantsUv(*part.texture);
   });
 }
 
 MeshData Displacement::of(const MeshData& mesh, const Place& place) const {
-  constexpr int kMostLevels = 12;  // of one triangle
+  constexpr int kMostLevels = 12;  // most levels of one triangle
   if (levels_ > kMostLevels || mesh.triangles.size() > kMostTriangles >> (2 * levels_))
     throw Error(Fault::limit, place,
                 "displacement_levels: expected a mesh that gets at most 50 million triangles, found one of " +

@@ -1,4 +1,4 @@
-// What the materials of a mesh say of how far its points move: `displacement` and `displacement_levels`.
+// The displacement of a mesh by its materials: `displacement` and `displacement_levels`.
 //
 // compile() (render/world.h) and the writers of mesh formats ask for it; the Scene keeps the mesh as it was
 // given.
@@ -37,7 +37,7 @@ class Displacement {
 
  private:
   struct Part {
-    std::uint32_t material = 0;  ///< of points; 0 where all are of one
+    std::uint32_t material = 0;  ///< material of points; 0 where all are of one
     Real height = 0;
     std::optional<Texture> texture{};
     bool operator==(const Part&) const = default;

@@ -15,7 +15,7 @@ namespace trace {
 struct InputFile {
   std::string path;        ///< as the program opens it
   bool read = false;       ///< false: the scene only names it
-  std::uint64_t hash = 0;  ///< of its bytes, if it was read
+  std::uint64_t hash = 0;  ///< hash of its bytes, if it was read
   auto operator<=>(const InputFile&) const = default;
 };
 
@@ -23,7 +23,7 @@ class InputFiles {
  public:
   void noteRead(const std::string& path, std::string_view bytes);
   void noteNamed(const std::string& path);
-  /// What a part of the scene, which has a file of its own, is made of.
+  /// Data of which a part of the scene with a file of its own is made.
   void note(const InputFiles& part);
 
   const std::vector<InputFile>& all() const { return files_; }

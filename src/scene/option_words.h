@@ -1,4 +1,4 @@
-// What else people call the options: for looking one up in the studio, and for hints on unknown names.
+// Other names of the options: for looking one up in the studio, and for hints on unknown names.
 #pragma once
 
 #include <string_view>

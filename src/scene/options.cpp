@@ -112,7 +112,7 @@ std::span<const std::string_view> namesOf() {
     return kNames<Enum>;
 }
 
-constexpr std::string_view kNone = "none";  // of a set; also no file
+constexpr std::string_view kNone = "none";  // an empty set; also no file
 
 // --- values from and to text --------------------------------------------------------------------------
 
@@ -316,7 +316,7 @@ constexpr Option::Kind kindOf() {
     return Option::Kind::choice;
 }
 
-/// What a row says beside its field.
+/// The text of a row, besides its field.
 struct Text {
   std::string_view name, group, help, source;
   Repeats repeats = Repeats::picture;
@@ -348,17 +348,17 @@ Option row(const Text& t) {
           [](const Option& option, Settings& s, std::string_view text) { parse(option, text, s.*Member); }};
 }
 
-constexpr int kMostPixels = 100000;  // of a side; the memory limit bounds the product
+constexpr int kMostPixels = 100000;  // most pixels of a side; the memory limit bounds the product
 
 const std::array kOptions{
-    row<&Settings::width>(
-        {.name = "width",
-         .group = "Picture",
-         .help = "width of the picture; above a scene, width or height alone keeps the scene's shape",
-         .source = "courses: -w",
-         .least = 1,
-         .most = kMostPixels,
-         .unit = "pixels"}),
+    row<&Settings::width>({.name = "width",
+                           .group = "Picture",
+                           .help = "width of the picture; if only width or height is given on the command "
+                                   "line, the scene's aspect ratio is kept",
+                           .source = "courses: -w",
+                           .least = 1,
+                           .most = kMostPixels,
+                           .unit = "pixels"}),
     row<&Settings::height>({.name = "height",
                             .group = "Picture",
                             .help = "height of the picture; 0 takes it from the camera's aspect ratio",
@@ -393,9 +393,8 @@ const std::array kOptions{
     row<&Settings::noiseTarget>(
         {.name = "noise-target",
          .group = "Picture",
-         .help =
-             "stop a pixel's samples, from 16 on, once its error is so small, as a part of white (0.004 is "
-             "a level of 255); at the latest after spp; 0 takes all. Samples of a grid come by sobol then",
+         .help = "stop a pixel's samples, from 16 on, once its error is at most this part of white (0.004 is "
+                 "a level of 255); spp is the maximum; 0 takes all. A grid becomes sobol",
          .source = "",
          .least = 0,
          .most = 1,
@@ -404,9 +403,8 @@ const std::array kOptions{
     row<&Settings::subdivide>(
         {.name = "subdivide",
          .group = "Picture",
-         .help =
-             "rays go through the corners of pixels; a pixel whose corners differ falls into four squares, "
-             "and those again, at most so often: many rays at edges, one elsewhere; 0 takes spp",
+         .help = "recursive subdivision: rays go through the corners of pixels; a pixel whose corners differ "
+                 "is divided into four squares, at most this many times; 0 takes spp",
          .source = "Whitted 1980; docs/sampling.md",
          .least = 0,
          .most = 6,
@@ -415,23 +413,20 @@ const std::array kOptions{
     row<&Settings::subdivideThreshold>(
         {.name = "subdivide-threshold",
          .group = "Picture",
-         .help =
-             "corners of a square differ where red, green or blue do by more, as a part of white (0.004 is a "
-             "level of 255); 0 divides all that is not the same",
+         .help = "largest difference of a square's corners in red, green or blue, as a part of white (0.004 "
+                 "is a level of 255); 0 divides unless they are equal",
          .source = "Austin: supersample threshold",
          .least = 0,
          .most = 1}),
-    row<&Settings::denoise>(
-        {.name = "denoise",
-         .group = "Picture",
-         .help =
-             "take noise out of the finished picture, by the mean of pixels that are alike; how much that "
-             "changed is told; needs 8 samples a pixel or more",
-         .source = "Rousselle, Manzi and Zwicker 2013; docs/denoising.md",
-         .extra = true}),
+    row<&Settings::denoise>({.name = "denoise",
+                             .group = "Picture",
+                             .help = "remove noise from the finished picture by averaging similar pixels; "
+                                     "reports the mean change; needs 8 samples a pixel or more",
+                             .source = "Rousselle, Manzi and Zwicker 2013; docs/denoising.md",
+                             .extra = true}),
     row<&Settings::time>({.name = "time",
                           .group = "Picture",
-                          .help = "the moment shown of a scene whose values change with time: key(...)",
+                          .help = "time at which an animated scene is shown: key(...)",
                           .source = "docs/animation.md",
                           .repeats = Repeats::scene,
                           .least = -1e9,
@@ -441,8 +436,7 @@ const std::array kOptions{
         {.name = "shutter",
          .group = "Picture",
          .help =
-             "seconds for which the shutter is open, from time on: what moves meanwhile is blurred; needs "
-             "many samples a pixel",
+             "seconds for which the shutter is open, from time on: motion blur; needs many samples a pixel",
          .source = "Cook, Porter and Carpenter 1984; docs/motion.md",
          .least = 0,
          .most = 1e9,
@@ -450,9 +444,8 @@ const std::array kOptions{
          .extra = true}),
     row<&Settings::moments>({.name = "moments",
                              .group = "Picture",
-                             .help =
-                                 "moments at which the scene is seen while the shutter is open; more make "
-                                 "fast things smoother",
+                             .help = "number of times at which the scene is evaluated while the shutter is "
+                                     "open; more make fast motion smoother",
                              .source = "docs/motion.md",
                              .least = 2,
                              .most = 4096,
@@ -470,12 +463,12 @@ const std::array kOptions{
                           .most = 1e9}),
     row<&Settings::filter>({.name = "filter",
                             .group = "Sampling",
-                            .help = "how samples count by their distance from a pixel's centre",
+                            .help = "weight of a sample by its distance from the pixel's centre",
                             .source = "Mitchell and Netravali 1988; docs/sampling.md",
                             .extra = true}),
     row<&Settings::filterRadius>({.name = "filter-radius",
                                   .group = "Sampling",
-                                  .help = "how far the filter reaches; 0 is its usual radius",
+                                  .help = "radius of the filter; 0 is its usual radius",
                                   .source = "",
                                   .least = 0,
                                   .most = 16,
@@ -483,7 +476,7 @@ const std::array kOptions{
     row<&Settings::lightSamples>(
         {.name = "light-samples",
          .group = "Sampling",
-         .help = "rays that every sample sends to each light with a size; more make its shadows smoother",
+         .help = "shadow rays of every sample to each light with a size; more make soft shadows smoother",
          .source = "Cook, Porter and Carpenter 1984",
          .least = 1,
          .most = 1024,
@@ -491,8 +484,8 @@ const std::array kOptions{
     row<&Settings::lightChoices>(
         {.name = "light-choices",
          .group = "Sampling",
-         .help = "lights that every place asks, chosen by their distance, direction and strength: for scenes "
-                 "of many; 0 asks all, but path, direct, bdpt, mlt and photon one of more than 32",
+         .help = "lights sampled at each hit point, chosen by distance, direction and intensity; 0 samples "
+                 "all, but path, direct, bdpt, mlt and photon one of more than 32",
          .source = "Conty Estevez and Kulla 2018; docs/lights.md",
          .least = 0,
          .most = 1024,
@@ -501,18 +494,15 @@ const std::array kOptions{
     row<&Settings::integrator>(
         {.name = "integrator",
          .group = "Tracing",
-         .help = "how light is found: whitted follows mirrors, glass and shadows; path follows "
-                 "light by chance however often it bounces, and needs many samples; direct is path "
-                 "without bounces; bdpt is path with paths that start at lights, too; mlt is path, led by "
-                 "chains that "
-                 "look around where light was found; photon is path with one bounce, and photons tell what "
-                 "light it meets; occlusion "
-                 "shows how open places are, normals where surfaces face, cost how much work whitted has",
+         .help = "how light is computed: whitted (mirrors, glass and shadows), path (path tracing, needs "
+                 "many samples), direct (path without bounces), bdpt (bidirectional path tracing), mlt "
+                 "(Metropolis light transport), photon (photon maps); occlusion shows ambient occlusion, "
+                 "normals surface normals, cost the work of whitted",
          .source = "Whitted 1980, Kajiya 1986",
          .extra = true}),
     row<&Settings::depth>({.name = "depth",
                            .group = "Tracing",
-                           .help = "bounces a camera ray may make; 0 shows local shading only",
+                           .help = "largest number of bounces of a camera ray; 0 shows local shading only",
                            .source = "courses: -r",
                            .least = 0,
                            .most = 1000,
@@ -525,63 +515,58 @@ const std::array kOptions{
                                .most = 1,
                                .integrators = "whitted",
                                .extra = true}),
-    row<&Settings::fireflyLimit>({.name = "firefly-limit",
-                                  .group = "Tracing",
-                                  .help = "a bounced ray adds at most this to a sample, so that rare bright "
-                                          "paths leave no dots; what that "
-                                          "takes away is told; 0 takes nothing",
-                                  .source = "docs/path-tracing.md",
-                                  .least = 0,
-                                  .most = 1e9,
-                                  .integrators = "path, direct, bdpt, mlt, photon",
-                                  .extra = true}),
+    row<&Settings::fireflyLimit>(
+        {.name = "firefly-limit",
+         .group = "Tracing",
+         .help = "clamps what a bounced ray adds to a sample, so that rare bright paths leave no dots; "
+                 "reports the light that this removes; 0 does not clamp",
+         .source = "docs/path-tracing.md",
+         .least = 0,
+         .most = 1e9,
+         .integrators = "path, direct, bdpt, mlt, photon",
+         .extra = true}),
     row<&Settings::lightVertices>(
         {.name = "light-vertices",
          .group = "Tracing",
-         .help = "shows only paths of which so many places were chosen from the light's end; -1 shows all",
+         .help = "shows only paths with this number of vertices sampled from the light (s); -1 shows all",
          .source = "Veach 1997, chapter 10; docs/bidirectional.md",
          .least = -1,
          .most = 1000,
          .integrators = "bdpt",
          .extra = true}),
-    row<&Settings::cameraVertices>(
-        {.name = "camera-vertices",
-         .group = "Tracing",
-         .help = "shows only paths of which so many places, the camera's among them, were chosen from its "
-                 "end; -1 shows all",
-         .source = "Veach 1997, chapter 10; docs/bidirectional.md",
-         .least = -1,
-         .most = 1000,
-         .integrators = "bdpt",
-         .extra = true}),
+    row<&Settings::cameraVertices>({.name = "camera-vertices",
+                                    .group = "Tracing",
+                                    .help = "shows only paths with this number of vertices sampled from the "
+                                            "camera (t), including the camera's; -1 shows all",
+                                    .source = "Veach 1997, chapter 10; docs/bidirectional.md",
+                                    .least = -1,
+                                    .most = 1000,
+                                    .integrators = "bdpt",
+                                    .extra = true}),
     row<&Settings::unweighted>(
         {.name = "unweighted",
          .group = "Tracing",
-         .help =
-             "a way to put paths together shows all that it finds by itself, and not what it counts beside "
-             "the others: to look at with --light-vertices",
+         .help = "shows a strategy without its MIS weight; use it with --light-vertices or --camera-vertices",
          .source = "Veach 1997, chapter 9; docs/bidirectional.md",
          .integrators = "bdpt",
          .extra = true}),
     row<&Settings::chains>(
         {.name = "chains",
          .group = "Tracing",
-         .help = "what chains move among: the samples of path, those of bdpt, each by one way to choose its "
-                 "places, or paths, which they change place by place (veach)",
+         .help = "state space of the Markov chains: the samples of path, those of bdpt with one strategy "
+                 "each, or paths that Veach's mutations change (veach)",
          .source = "Hachisuka, Kaplanyan and Dachsbacher 2014; Veach and Guibas 1997; docs/metropolis.md",
          .integrators = "mlt",
          .extra = true}),
-    row<&Settings::mutations>(
-        {.name = "mutations",
-         .group = "Tracing",
-         .help = "how --chains veach changes paths, beside throwing them anew (--move-anywhere)",
-         .source = "Veach and Guibas 1997, section 5; docs/metropolis.md",
-         .integrators = "mlt"}),
+    row<&Settings::mutations>({.name = "mutations",
+                               .group = "Tracing",
+                               .help = "mutations of --chains veach, apart from new paths (--move-anywhere)",
+                               .source = "Veach and Guibas 1997, section 5; docs/metropolis.md",
+                               .integrators = "mlt"}),
     row<&Settings::chainStarts>(
         {.name = "chain-starts",
          .group = "Tracing",
-         .help = "samples taken first, at random, among which chains begin: more make the picture's "
-                 "brightness more exact",
+         .help = "random samples that seed the chains: more make the picture's mean brightness more exact",
          .source = "docs/metropolis.md",
          .least = 1,
          .most = 1e8,
@@ -589,55 +574,52 @@ const std::array kOptions{
          .integrators = "mlt"}),
     row<&Settings::moveAnywhere>({.name = "move-anywhere",
                                   .group = "Tracing",
-                                  .help = "share of a chain's moves that go anywhere; the others go nearby",
+                                  .help = "probability of a large step, which replaces the whole sample; the "
+                                          "other mutations are small steps",
                                   .source = "Kelemen et al. 2002",
                                   .least = 0.01,
                                   .most = 1,
                                   .integrators = "mlt"}),
     row<&Settings::moveSize>({.name = "move-size",
                               .group = "Tracing",
-                              .help = "how far a move nearby goes, as a part of what there is to choose from",
+                              .help = "size of a small step, as a part of the range",
                               .source = "docs/metropolis.md",
                               .least = 1e-6,
                               .most = 1,
                               .integrators = "mlt"}),
-    row<&Settings::lampSamples>(
-        {.name = "lamp-samples",
+    row<&Settings::lampSamples>({.name = "lamp-samples",
+                                 .group = "Tracing",
+                                 .help = "shadow rays from each hit point to emissive objects, and to a sky "
+                                         "that is not uniform; 0: they light nothing",
+                                 .source = "Cook, Porter and Carpenter 1984; docs/lights.md",
+                                 .least = 0,
+                                 .most = 4096,
+                                 .unit = "rays",
+                                 .integrators = "whitted",
+                                 .extra = true}),
+    row<&Settings::ambientOcclusion>({.name = "ambient-occlusion",
+                                      .group = "Tracing",
+                                      .help = "rays from each hit point that measure ambient occlusion: "
+                                              "corners and creases darken; 0 is constant ambient light",
+                                      .source = "Zhukov, Iones and Kronin 1998; docs/occlusion.md",
+                                      .least = 0,
+                                      .most = 4096,
+                                      .unit = "rays",
+                                      .integrators = "whitted",
+                                      .extra = true}),
+    row<&Settings::occlusionReach>(
+        {.name = "occlusion-reach",
          .group = "Tracing",
-         .help =
-             "rays by which every place asks for the light of objects that shine, and of a sky that is not "
-             "the same all around; 0: they light nothing",
-         .source = "Cook, Porter and Carpenter 1984; docs/lights.md",
+         .help = "largest distance of objects that block ambient light; 0 is unlimited",
+         .source = "",
          .least = 0,
-         .most = 4096,
-         .unit = "rays",
-         .integrators = "whitted",
-         .extra = true}),
-    row<&Settings::ambientOcclusion>(
-        {.name = "ambient-occlusion",
-         .group = "Tracing",
-         .help = "rays by which every place asks how much of the ambient light reaches it: corners and "
-                 "creases darken; 0 lights all places alike",
-         .source = "Zhukov, Iones and Kronin 1998; docs/occlusion.md",
-         .least = 0,
-         .most = 4096,
-         .unit = "rays",
-         .integrators = "whitted",
-         .extra = true}),
-    row<&Settings::occlusionReach>({.name = "occlusion-reach",
-                                    .group = "Tracing",
-                                    .help = "how far what stands in the way of ambient light may be; 0: "
-                                            "however far",
-                                    .source = "",
-                                    .least = 0,
-                                    .most = 1e9,
-                                    .unit = "units",
-                                    .integrators = "whitted, occlusion"}),
+         .most = 1e9,
+         .unit = "units",
+         .integrators = "whitted, occlusion"}),
     row<&Settings::photons>(
         {.name = "photons",
          .group = "Tracing",
-         .help = "photons that fly from all that gives light, to tell what light bounces; more "
-                 "make it sharper and smoother",
+         .help = "photons emitted by the lights in each pass; more make indirect light sharper and smoother",
          .source = "Jensen 1996; docs/photons.md",
          .least = 1,
          .most = 50e6,
@@ -646,29 +628,25 @@ const std::array kOptions{
     row<&Settings::photonPasses>(
         {.name = "photon-passes",
          .group = "Tracing",
-         .help = "maps of as many photons each, among which the samples of a pixel are spread: in each later "
-                 "map fewer photons around a place count, so that their mean comes nearer to the truth; no "
-                 "more are made than there are samples",
+         .help = "number of photon maps, shared by the samples of a pixel: later maps use fewer, nearer "
+                 "photons, so that their mean converges; at most one for each sample",
          .source = "Knaus and Zwicker 2011; docs/photons.md",
          .least = 1,
          .most = 1000,
          .unit = "maps",
          .integrators = "photon"}),
-    row<&Settings::finalGather>(
-        {.name = "final-gather",
-         .group = "Tracing",
-         .help = "photons are not seen at once: each place looks around by rays, and photons tell what those "
-                 "find; grain in place of blotches and blur",
-         .source = "Jensen 1996; docs/photons.md",
-         .integrators = "photon",
-         .extra = true}),
+    row<&Settings::finalGather>({.name = "final-gather",
+                                 .group = "Tracing",
+                                 .help = "estimate indirect light by rays whose hit points use the photon "
+                                         "map; grain in place of blotches and blur",
+                                 .source = "Jensen 1996; docs/photons.md",
+                                 .integrators = "photon",
+                                 .extra = true}),
     row<&Settings::irradianceCache>(
         {.name = "irradiance-cache",
          .group = "Tracing",
-         .help =
-             "light that photons tell is worked out at few places first and blended between them: how far "
-             "a place tells of others, in mean distances of what it sees, such as 0.2; 0: every place looks "
-             "around by itself",
+         .help = "compute indirect light at few points and interpolate: the reach of a point, relative to "
+                 "the mean distance of what it sees, such as 0.2; 0 computes it everywhere",
          .source = "Ward, Rubinstein and Clear 1988; docs/photons.md",
          .least = 0,
          .most = 1,
@@ -676,7 +654,7 @@ const std::array kOptions{
          .extra = true}),
     row<&Settings::irradianceRays>({.name = "irradiance-rays",
                                     .group = "Tracing",
-                                    .help = "rays by which each place of the irradiance cache looks around",
+                                    .help = "rays for each point of the irradiance cache",
                                     .source = "docs/photons.md",
                                     .least = 4,
                                     .most = 65536,
@@ -685,17 +663,16 @@ const std::array kOptions{
     row<&Settings::smoothTerminator>(
         {.name = "smooth-terminator",
          .group = "Tracing",
-         .help = "rays from a mesh to light start on the smooth surface that the normals of its points stand "
-                 "for: the line between light and shade shows no facets",
+         .help = "shadow rays from a mesh start on the smooth surface of its vertex normals: the line "
+                 "between light and shade shows no facets",
          .source = "Hanika 2021; docs/smooth-terminator.md",
          .integrators = "whitted, path, direct, bdpt, mlt, photon, occlusion",
          .extra = true}),
     row<&Settings::caustics>(
         {.name = "caustics",
          .group = "Tracing",
-         .help = "photons from the lights that show where mirrors and glass gather light; glass that "
-                 "refracts then has a black shadow, since the photons bring its light; 0 shows none, and of "
-                 "the integrator photon as many as --photons",
+         .help = "photons from the lights for the caustics of mirrors and glass; refracting glass then has a "
+                 "black shadow; 0: none, and with the integrator photon as many as --photons",
          .source = "Jensen 2001; docs/caustics.md",
          .least = 0,
          .most = 50e6,
@@ -705,37 +682,35 @@ const std::array kOptions{
     row<&Settings::causticRadius>(
         {.name = "caustic-radius",
          .group = "Tracing",
-         .help =
-             "photons farther away do not count; 0 is a fiftieth of the scene's size, and at most a tenth of "
-             "the size of what mirrors and refracts",
+         .help = "search radius for photons of caustics; 0 is a fiftieth of the scene's size, and at most a "
+                 "tenth of the size of the mirrors and glass",
          .source = "",
          .least = 0,
          .most = 1e9,
          .unit = "units",
          .integrators = "whitted, photon"}),
-    row<&Settings::causticTexels>(
-        {.name = "caustic-texels",
-         .group = "Tracing",
-         .help = "caustics are gathered in a map of so many texels a side for each surface that has texture "
-                 "coordinates, as long ago; 0: what photons lie near tells",
-         .source = "Arvo 1986; docs/caustics.md",
-         .least = 0,
-         .most = 4096,
-         .unit = "texels",
-         .integrators = "whitted",
-         .extra = true}),
+    row<&Settings::causticTexels>({.name = "caustic-texels",
+                                   .group = "Tracing",
+                                   .help = "Arvo's illumination maps: texels a side of a map of caustics for "
+                                           "each surface that has texture coordinates; 0 uses the photon map",
+                                   .source = "Arvo 1986; docs/caustics.md",
+                                   .least = 0,
+                                   .most = 4096,
+                                   .unit = "texels",
+                                   .integrators = "whitted",
+                                   .extra = true}),
     row<&Settings::nestedGlass>(
         {.name = "nested-glass",
          .group = "Tracing",
-         .help = "bodies of glass inside and across one another: the one of the highest priority fills a "
-                 "place, of equals the one entered last; by-priority does so if a material gives one",
+         .help = "glass objects inside and across one another: the highest priority fills the space, among "
+                 "equals the object entered last; by-priority does so if a material gives one",
          .source = "Schmidt and Budge 2002; docs/glass.md",
          .repeats = Repeats::world,
          .extra = true}),
     row<&Settings::wavelengths>(
         {.name = "wavelengths",
          .group = "Tracing",
-         .help = "rays into which a body splits light that disperses it; 1 refracts all colours alike",
+         .help = "rays into which dispersive glass splits light; 1 refracts all colours alike",
          .source = "docs/glass.md",
          .least = 1,
          .most = 1000,
@@ -744,33 +719,32 @@ const std::array kOptions{
     row<&Settings::varnish>(
         {.name = "varnish",
          .group = "Tracing",
-         .help = "opaque surfaces with an index mirror as a clear coat of that index does, by Fresnel's "
-                 "formula",
+         .help =
+             "opaque surfaces with an index reflect like a clear coat of that index, by Fresnel's formula",
          .source = "docs/glass.md",
          .extra = true}),
-    row<&Settings::glossy>(
-        {.name = "glossy",
-         .group = "Tracing",
-         .help = "rough metal, varnish and glass send one ray in a direction chosen by chance, so that what "
-                 "they mirror is blurred; needs many samples a pixel",
-         .source = "Cook, Porter and Carpenter 1984; docs/materials.md",
-         .integrators = "whitted",
-         .extra = true}),
+    row<&Settings::glossy>({.name = "glossy",
+                            .group = "Tracing",
+                            .help = "rough metal, varnish and glass trace one random ray of their lobe, for "
+                                    "blurred reflections; needs many samples a pixel",
+                            .source = "Cook, Porter and Carpenter 1984; docs/materials.md",
+                            .integrators = "whitted",
+                            .extra = true}),
     row<&Settings::models>(
         {.name = "models",
          .group = "Tracing",
-         .help = "shading models: those that materials name, or Phong's with the nearest values, to see what "
-                 "the others add",
+         .help =
+             "shading models: those of the materials, or their closest Phong approximation, for comparison",
          .source = "docs/materials.md",
          .repeats = Repeats::world}),
     row<&Settings::textures>({.name = "textures",
                               .group = "Tracing",
-                              .help = "textures and bumps are shown, or only the values that they scale",
+                              .help = "show textures and bumps, or only the constants that they scale",
                               .source = "docs/textures.md",
                               .repeats = Repeats::world}),
     row<&Settings::outlines>({.name = "outlines",
                               .group = "Tracing",
-                              .help = "lines so wide in black where objects end, and along their edges",
+                              .help = "black lines of this width where objects end, and along their edges",
                               .source = "Choudhury and Parker 2009; docs/materials.md",
                               .least = 0,
                               .most = 100,
@@ -784,14 +758,14 @@ const std::array kOptions{
     row<&Settings::projection>(
         {.name = "projection",
          .group = "Camera",
-         .help = "how directions become places of the picture; a panorama is all around",
+         .help = "how directions are mapped to points of the picture; a panorama shows all directions",
          .source = "docs/cameras.md",
          .repeats = Repeats::world,
          .extra = true}),
     row<&Settings::viewHeight>(
         {.name = "view-height",
          .group = "Camera",
-         .help = "of the scene in an orthographic picture; 0 is what the perspective shows at the middle",
+         .help = "height of an orthographic picture; 0 matches the perspective at the middle",
          .source = "docs/cameras.md",
          .repeats = Repeats::world,
          .least = 0,
@@ -799,7 +773,7 @@ const std::array kOptions{
          .unit = "units"}),
     row<&Settings::fisheyeAngle>({.name = "fisheye-angle",
                                   .group = "Camera",
-                                  .help = "that a fisheye sees across the shorter side of the picture",
+                                  .help = "angle of a fisheye across the shorter side of the picture",
                                   .source = "docs/cameras.md",
                                   .repeats = Repeats::world,
                                   .least = 1,
@@ -807,7 +781,7 @@ const std::array kOptions{
                                   .unit = "degrees"}),
     row<&Settings::shiftX>({.name = "shift-x",
                             .group = "Camera",
-                            .help = "moves the film to the right, so that more of what is there is seen",
+                            .help = "moves the film to the right, which shows more of the right side",
                             .source = "tilt-shift lenses; docs/cameras.md",
                             .repeats = Repeats::world,
                             .least = -100,
@@ -815,7 +789,7 @@ const std::array kOptions{
                             .unit = "widths"}),
     row<&Settings::shiftY>({.name = "shift-y",
                             .group = "Camera",
-                            .help = "moves the film up: towers stay upright if the camera looks level",
+                            .help = "moves the film up: towers stay upright if the camera is level",
                             .source = "tilt-shift lenses; docs/cameras.md",
                             .repeats = Repeats::world,
                             .least = -100,
@@ -823,7 +797,7 @@ const std::array kOptions{
                             .unit = "heights"}),
     row<&Settings::distortion>({.name = "distortion",
                                 .group = "Camera",
-                                .help = "of the lens: above 0 as a barrel, below as a pincushion",
+                                .help = "lens distortion: above 0 barrel, below 0 pincushion",
                                 .source = "Brown 1966; docs/cameras.md",
                                 .repeats = Repeats::world,
                                 .least = -0.1,
@@ -832,13 +806,13 @@ const std::array kOptions{
     row<&Settings::stereo>(
         {.name = "stereo",
          .group = "Camera",
-         .help = "two eyes in one picture: beside each other, or for glasses of red and cyan",
+         .help = "views of two eyes in one picture: side by side, or for red and cyan glasses",
          .source = "courses; docs/stereo.md",
          .repeats = Repeats::world,
          .extra = true}),
     row<&Settings::eyeSeparation>({.name = "eye-separation",
                                    .group = "Camera",
-                                   .help = "of the two eyes; 0 is a thirtieth of zero-parallax",
+                                   .help = "distance between the eyes; 0 is a thirtieth of zero-parallax",
                                    .source = "docs/stereo.md",
                                    .repeats = Repeats::world,
                                    .least = 0,
@@ -846,9 +820,8 @@ const std::array kOptions{
                                    .unit = "units"}),
     row<&Settings::zeroParallax>({.name = "zero-parallax",
                                   .group = "Camera",
-                                  .help =
-                                      "distance of what seems to lie in the screen; nearer things stand out "
-                                      "of it; 0 is that of the middle of the picture",
+                                  .help = "distance of objects that appear to lie in the screen; nearer ones "
+                                          "stand out of it; 0 is that of the middle of the picture",
                                   .source = "docs/stereo.md",
                                   .repeats = Repeats::world,
                                   .least = 0,
@@ -856,7 +829,7 @@ const std::array kOptions{
                                   .unit = "units"}),
     row<&Settings::aperture>({.name = "aperture",
                               .group = "Lens",
-                              .help = "diameter of the lens: what is not in focus blurs; 0 is a pinhole",
+                              .help = "diameter of the lens: objects out of focus blur; 0 is a pinhole",
                               .source = "Cook, Porter and Carpenter 1984; docs/lens.md",
                               .least = 0,
                               .most = 1e9,
@@ -864,19 +837,18 @@ const std::array kOptions{
                               .extra = true}),
     row<&Settings::focus>({.name = "focus",
                            .group = "Lens",
-                           .help = "distance along the view at which things are sharp; 0 is that of what the "
-                                   "middle of the picture shows",
+                           .help = "distance along the viewing direction that is in focus; 0 is that of the "
+                                   "surface in the middle of the picture",
                            .source = "docs/lens.md",
                            .repeats = Repeats::world,
                            .least = 0,
                            .most = 1e30,
                            .unit = "units"}),
-    row<&Settings::focusOn>(
-        {.name = "focus-on",
-         .group = "Lens",
-         .help = "what is sharp, in place of a distance: an object by its name, or a point x,y,z",
-         .source = "docs/lens.md",
-         .repeats = Repeats::world}),
+    row<&Settings::focusOn>({.name = "focus-on",
+                             .group = "Lens",
+                             .help = "object in focus, by its name, or a point x,y,z, in place of a distance",
+                             .source = "docs/lens.md",
+                             .repeats = Repeats::world}),
     row<&Settings::blades>(
         {.name = "blades",
          .group = "Lens",
@@ -886,18 +858,17 @@ const std::array kOptions{
          .most = 100}),
     row<&Settings::bladeAngle>({.name = "blade-angle",
                                 .group = "Lens",
-                                .help = "turns the corners of the lens opening",
+                                .help = "rotates the corners of the lens opening",
                                 .source = "",
                                 .least = -360,
                                 .most = 360,
                                 .unit = "degrees"}),
-    row<&Settings::aperturePicture>(
-        {.name = "aperture-picture",
-         .group = "Lens",
-         .help = "picture whose bright places are the lens opening, in place of blades: blurred lights take "
-                 "its shape",
-         .source = "docs/lens.md",
-         .repeats = Repeats::world}),
+    row<&Settings::aperturePicture>({.name = "aperture-picture",
+                                     .group = "Lens",
+                                     .help = "picture of the lens opening, in place of blades: blurred "
+                                             "lights take the shape of its bright parts",
+                                     .source = "docs/lens.md",
+                                     .repeats = Repeats::world}),
     row<&Settings::tilt>({.name = "tilt",
                           .group = "Lens",
                           .help = "turns the plane in focus: above 0 its upper half comes nearer",
@@ -909,27 +880,25 @@ const std::array kOptions{
     row<&Settings::backdrop>(
         {.name = "backdrop",
          .group = "Background",
-         .help =
-             "picture behind everything, stretched over the whole picture; only rays of the camera see it",
+         .help = "picture behind the scene, stretched over the whole picture; only camera rays see it",
          .source = "docs/environment.md",
          .repeats = Repeats::world}),
-    row<&Settings::environment>(
-        {.name = "environment",
-         .group = "Background",
-         .help = "picture all around the scene, seen by camera rays and in mirrors and glass: a file, or a "
-                 "folder with the six faces of a cube",
-         .source = "Blinn and Newell 1976; Austin: -c",
-         .repeats = Repeats::world}),
+    row<&Settings::environment>({.name = "environment",
+                                 .group = "Background",
+                                 .help = "environment map, seen by camera rays and in mirrors and glass: a "
+                                         "file, or a folder with the six faces of a cube",
+                                 .source = "Blinn and Newell 1976; Austin: -c",
+                                 .repeats = Repeats::world}),
     row<&Settings::environmentKind>(
         {.name = "environment-kind",
          .group = "Background",
-         .help = "how the environment shows all directions; auto judges by its shape and name",
+         .help = "layout of the environment map; auto decides by its shape and name",
          .source = "docs/environment.md",
          .repeats = Repeats::world}),
     row<&Settings::environmentRotation>(
         {.name = "environment-rotation",
          .group = "Background",
-         .help = "turns what is all around about the axis y, to the left as seen from inside",
+         .help = "rotates the environment about the y axis, to the left as seen from inside",
          .source = "",
          .repeats = Repeats::world,
          .least = -360,
@@ -937,7 +906,7 @@ const std::array kOptions{
          .unit = "degrees"}),
     row<&Settings::environmentBrightness>({.name = "environment-brightness",
                                            .group = "Background",
-                                           .help = "factor on what is all around",
+                                           .help = "factor on the environment",
                                            .source = "",
                                            .repeats = Repeats::world,
                                            .least = 0,
@@ -951,73 +920,69 @@ const std::array kOptions{
          .least = 0,
          .most = 90,
          .unit = "degrees"}),
-    row<&Settings::fog>({.name = "fog",
-                         .group = "Fog",
-                         .help = "how much of its light a ray loses to fog along a unit of length, and how "
-                                 "much the fog shows of lights in it; 0: clear air",
-                         .source = "docs/fog.md",
-                         .least = 0,
-                         .most = 1e6,
-                         .unit = "per unit",
-                         .integrators = "whitted, path, direct, bdpt, mlt, photon",
-                         .extra = true}),
+    row<&Settings::fog>(
+        {.name = "fog",
+         .group = "Fog",
+         .help = "extinction of fog per unit of length, and its scattering of the lights; 0: clear air",
+         .source = "docs/fog.md",
+         .least = 0,
+         .most = 1e6,
+         .unit = "per unit",
+         .integrators = "whitted, path, direct, bdpt, mlt, photon",
+         .extra = true}),
     row<&Settings::fogColor>(
         {.name = "fog-color",
          .group = "Fog",
-         .help = "what of light the fog scatters; the rest it swallows: 0 is black smoke",
+         .help = "albedo of fog, the scattered fraction; the rest is absorbed: 0 is black smoke",
          .source = "",
          .least = 0,
          .most = 1,
          .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
-    row<&Settings::fogHeight>({.name = "fog-height",
-                               .group = "Fog",
-                               .help =
-                                   "fog lies on the ground: so far up, along y from 0, it is thinner by e "
-                                   "= 2.718; 0: it is the same everywhere",
-                               .source = "",
-                               .least = 0,
-                               .most = 1e9,
-                               .unit = "units",
-                               .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
+    row<&Settings::fogHeight>(
+        {.name = "fog-height",
+         .group = "Fog",
+         .help = "ground fog: height, along y from 0, at which it is thinner by e = 2.718; 0: uniform fog",
+         .source = "",
+         .least = 0,
+         .most = 1e9,
+         .unit = "units",
+         .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::fogForward>({.name = "fog-forward",
                                 .group = "Fog",
-                                .help =
-                                    "how much more light goes on than back: from -1, all back, over 0, as "
-                                    "much everywhere, to 1; mist has 0.8, dust 0.4",
+                                .help = "mean cosine of scattering: from -1, backward, over 0, isotropic, to "
+                                        "1, forward; mist has 0.8, dust 0.4",
                                 .source = "Henyey and Greenstein 1941",
                                 .least = -1,
                                 .most = 1,
                                 .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::fogSamples>({.name = "fog-samples",
                                 .group = "Fog",
-                                .help = "places on every ray that ask for the lights, in fog and media",
+                                .help = "points on every ray that sample the lights, in fog and media",
                                 .source = "",
                                 .least = 1,
                                 .most = 10000,
-                                .unit = "places",
+                                .unit = "points",
                                 .integrators = "whitted"}),
-    row<&Settings::mediumDepth>(
-        {.name = "medium-depth",
-         .group = "Fog",
-         .help = "how often light is scattered in fog, smoke, clouds and milk at most",
-         .source = "docs/media.md",
-         .least = 1,
-         .most = 10000,
-         .unit = "times",
-         .integrators = "path, bdpt, mlt, photon"}),
-    row<&Settings::subsurfaceSamples>(
-        {.name = "subsurface-samples",
-         .group = "Fog",
-         .help = "places at which light goes into a body of marble, milk or skin, for every place where it "
-                 "comes out and that is seen straight",
-         .source = "docs/subsurface.md",
-         .least = 1,
-         .most = 10000,
-         .unit = "places",
-         .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
+    row<&Settings::mediumDepth>({.name = "medium-depth",
+                                 .group = "Fog",
+                                 .help = "largest number of scattering events in fog, smoke, clouds and milk",
+                                 .source = "docs/media.md",
+                                 .least = 1,
+                                 .most = 10000,
+                                 .unit = "times",
+                                 .integrators = "path, bdpt, mlt, photon"}),
+    row<&Settings::subsurfaceSamples>({.name = "subsurface-samples",
+                                       .group = "Fog",
+                                       .help = "points at which light enters marble, milk or skin, for every "
+                                               "directly visible point where it leaves",
+                                       .source = "docs/subsurface.md",
+                                       .least = 1,
+                                       .most = 10000,
+                                       .unit = "points",
+                                       .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
     row<&Settings::like>({.name = "like",
                           .group = "Conventions",
-                          .help = "whose rules hold: sets every option of this group",
+                          .help = "conventions of a course: sets every option of this group",
                           .source = "docs/conventions.md",
                           .repeats = Repeats::world}),
     row<&Settings::highlight>(
@@ -1026,25 +991,25 @@ const std::array kOptions{
          .help = "highlight by the half-way vector (blinn) or the mirrored light (phong)",
          .source = "Blinn 1977; Phong 1975",
          .repeats = Repeats::world}),
-    row<&Settings::shininessScale>({.name = "shininess-scale",
-                                    .group = "Conventions",
-                                    .help = "factor on every shininess; 128 where scenes give it from 0 to 1",
-                                    .source = "courses of 2001",
-                                    .repeats = Repeats::world,
-                                    .least = 0,
-                                    .most = 1e6}),
-    row<&Settings::ambientScale>({.name = "ambient-scale",
-                                  .group = "Conventions",
-                                  .help =
-                                      "factor on all ambient light; 0.5 where a course lit the composer's "
-                                      "files by half",
-                                  .source = "the pictures of Texas A&M",
-                                  .repeats = Repeats::world,
-                                  .least = 0,
-                                  .most = 1e6}),
+    row<&Settings::shininessScale>(
+        {.name = "shininess-scale",
+         .group = "Conventions",
+         .help = "factor on every shininess; 128 for scenes with values from 0 to 1",
+         .source = "courses of 2001",
+         .repeats = Repeats::world,
+         .least = 0,
+         .most = 1e6}),
+    row<&Settings::ambientScale>(
+        {.name = "ambient-scale",
+         .group = "Conventions",
+         .help = "factor on all ambient light; 0.5 for a course that lit the composer's files by half",
+         .source = "the pictures of Texas A&M",
+         .repeats = Repeats::world,
+         .least = 0,
+         .most = 1e6}),
     row<&Settings::mirrorDefault>({.name = "mirror-default",
                                    .group = "Conventions",
-                                   .help = "what reflects when a material gives specular but not reflective",
+                                   .help = "reflection of a material that gives specular but not reflective",
                                    .source = "courses; zero in Austin",
                                    .repeats = Repeats::world}),
     row<&Settings::diffuseSides>({.name = "diffuse-sides",
@@ -1057,36 +1022,33 @@ const std::array kOptions{
                                       .help = "attenuation by distance never amplifies a light",
                                       .source = "courses: min(1, 1 / (a + b d + c d^2))",
                                       .repeats = Repeats::world}),
-    row<&Settings::glass>(
-        {.name = "glass",
-         .group = "Conventions",
-         .help = "filter by transmissive at each surface crossed, or by its power of the distance "
-                 "inside",
-         .source = "courses; Beer's law in Austin"}),
+    row<&Settings::glass>({.name = "glass",
+                           .group = "Conventions",
+                           .help = "filter by transmissive at each surface crossed, or by transmissive to "
+                                   "the power of the distance inside",
+                           .source = "courses; Beer's law in Austin"}),
     row<&Settings::airIndex>({.name = "air-index",
                               .group = "Conventions",
                               .help = "index of refraction outside all objects",
                               .source = "courses: 1.0003",
                               .least = 0.01,
                               .most = 100}),
-    row<&Settings::fresnel>(
-        {.name = "fresnel",
-         .group = "Conventions",
-         .help =
-             "glass mirrors what its material says, or the more the flatter it is looked at, by "
-             "Schlick's approximation or by Fresnel's formula (exact), as then do clear layers of an index",
-         .source = "Schlick 1994, University of Southern California; Fresnel 1823"}),
-    row<&Settings::glassShadows>(
-        {.name = "glass-shadows",
-         .group = "Conventions",
-         .help = "glass filters the light that passes it, or casts a black shadow; panes that bend "
-                 "nothing always filter it",
-         .source = "black in Southern California"}),
+    row<&Settings::fresnel>({.name = "fresnel",
+                             .group = "Conventions",
+                             .help = "reflection of glass: as its material says, or stronger at grazing "
+                                     "angles by Schlick's approximation or Fresnel's formula (exact), which "
+                                     "then also apply to clear layers with an index",
+                             .source = "Schlick 1994, University of Southern California; Fresnel 1823"}),
+    row<&Settings::glassShadows>({.name = "glass-shadows",
+                                  .group = "Conventions",
+                                  .help = "glass filters the light that passes it, or casts a black shadow; "
+                                          "panes that do not refract always filter it",
+                                  .source = "black in Southern California"}),
     row<&Settings::backFaces>(
         {.name = "back-faces",
          .group = "Conventions",
-         .help = "mesh triangles seen from behind: shown; hidden from camera and mirror rays, "
-                 "judged by the face and the interpolated normal; hidden from all rays, by the face",
+         .help = "mesh triangles seen from behind: shown; hidden from camera and mirror rays, by the face "
+                 "and the interpolated normal; hidden from all rays, by the face",
          .source = "cull-all in 2001, cull-seen in Austin"}),
     row<&Settings::vertexNormals>(
         {.name = "vertex-normals",
@@ -1097,15 +1059,15 @@ const std::array kOptions{
     row<&Settings::roundSpheres>(
         {.name = "round-spheres",
          .group = "Conventions",
-         .help = "a sphere that its transform stretches is a ball of the mean radius, not an ellipsoid",
+         .help = "a sphere stretched by its transform is a ball of the mean radius, not an ellipsoid",
          .source = "University of Washington, 1998",
          .repeats = Repeats::world}),
-    row<&Settings::roundMaps>(
-        {.name = "round-maps",
-         .group = "Conventions",
-         .help = "pictures lie on spheres, cylinders and cones; off: those show its bottom left corner alone",
-         .source = "off in Austin, where it was left to the student",
-         .repeats = Repeats::world}),
+    row<&Settings::roundMaps>({.name = "round-maps",
+                               .group = "Conventions",
+                               .help = "pictures are mapped to spheres, cylinders and cones; off: those show "
+                                       "only its bottom left corner",
+                               .source = "off in Austin, where it was left to the student",
+                               .repeats = Repeats::world}),
     row<&Settings::cameraAxes>(
         {.name = "camera-axes",
          .group = "Conventions",
@@ -1119,16 +1081,16 @@ const std::array kOptions{
                                            "its centre, or the outermost rays "
                                            "through the border of the picture",
                                    .source = "courses: corner"}),
-    row<&Settings::tone>({.name = "tone",
-                          .group = "Conventions",
-                          .help =
-                              "8-bit pictures: values below 0 and above 1 are cut off, or the least to the "
-                              "largest value become 0 to 1, or a curve brings bright ones below 1",
-                          .source = "stretch in British Columbia and Montreal; docs/tone.md",
-                          .repeats = Repeats::tone}),
+    row<&Settings::tone>(
+        {.name = "tone",
+         .group = "Conventions",
+         .help = "8-bit pictures: clip values below 0 and above 1; map the least and largest value to 0 and "
+                 "1; or apply a curve that brings bright ones below 1",
+         .source = "stretch in British Columbia and Montreal; docs/tone.md",
+         .repeats = Repeats::tone}),
     row<&Settings::rounding>({.name = "rounding",
                               .group = "Conventions",
-                              .help = "8-bit values are cut off or rounded to the nearest",
+                              .help = "8-bit values are truncated or rounded to the nearest",
                               .source = "courses: (int)(255 c)",
                               .repeats = Repeats::tone}),
     row<&Settings::exposure>({.name = "exposure",
@@ -1146,16 +1108,16 @@ const std::array kOptions{
          .help = "measures the light of the picture first and chooses the exposure by it; exposure is added",
          .source = "Reinhard et al. 2002; docs/trace-1.md",
          .repeats = Repeats::world}),
-    row<&Settings::whiteBalance>({.name = "white-balance",
-                                  .group = "Tone",
-                                  .help = "temperature of the light that is to look white, 1667 to 25000; 0 "
-                                          "leaves colours as they are",
-                                  .source = "Kang et al. 2002, Bradford; docs/tone.md",
-                                  .repeats = Repeats::tone,
-                                  .least = 0,
-                                  .most = 25000,
-                                  .unit = "kelvin",
-                                  .extra = true}),
+    row<&Settings::whiteBalance>(
+        {.name = "white-balance",
+         .group = "Tone",
+         .help = "temperature of the light that becomes white, 1667 to 25000; 0 leaves colours as they are",
+         .source = "Kang et al. 2002, Bradford; docs/tone.md",
+         .repeats = Repeats::tone,
+         .least = 0,
+         .most = 25000,
+         .unit = "kelvin",
+         .extra = true}),
     row<&Settings::transfer>(
         {.name = "transfer",
          .group = "Tone",
@@ -1165,7 +1127,7 @@ const std::array kOptions{
          .extra = true}),
     row<&Settings::bloom>({.name = "bloom",
                            .group = "Tone",
-                           .help = "share of the light that lens and eye scatter around bright places",
+                           .help = "fraction of the light that lens and eye scatter around bright points",
                            .source = "docs/tone.md",
                            .repeats = Repeats::tone,
                            .least = 0,
@@ -1173,18 +1135,18 @@ const std::array kOptions{
                            .extra = true}),
     row<&Settings::dither>({.name = "dither",
                             .group = "Tone",
-                            .help = "noise of one level hides the steps of 8-bit gradients",
+                            .help = "noise of one level, which hides the steps of 8-bit gradients",
                             .source = "docs/tone.md",
                             .repeats = Repeats::tone,
                             .extra = true}),
     row<&Settings::passes>({.name = "passes",
                             .group = "Passes",
-                            .help = "pictures beside the picture, of what the camera rays meet",
+                            .help = "additional pictures of what the camera rays hit",
                             .source = "docs/passes.md"}),
     row<&Settings::passFormat>(
         {.name = "pass-format",
          .group = "Passes",
-         .help = "files of passes: raw values (exr), levels for the eye (png), or the picture's format",
+         .help = "files of passes: raw values (exr), levels for viewing (png), or the picture's format",
          .source = "",
          .repeats = Repeats::nothing}),
     row<&Settings::passName>({.name = "pass-name",
@@ -1199,66 +1161,64 @@ const std::array kOptions{
                  "yellow to white (heat)",
          .source = "",
          .repeats = Repeats::tone}),
-    row<&Settings::passDepth>({.name = "pass-depth",
-                               .group = "Passes",
-                               .help = "the pass depth measures along the view direction, or along the ray",
-                               .source = "ray in British Columbia"}),
-    row<&Settings::passNear>(
-        {.name = "pass-near",
+    row<&Settings::passDepth>(
+        {.name = "pass-depth",
          .group = "Passes",
-         .help = "depth that 8-bit pictures show black; counts where pass-far is beyond it",
+         .help = "the pass depth measures along the viewing direction, or along the ray",
+         .source = "ray in British Columbia"}),
+    row<&Settings::passNear>({.name = "pass-near",
+                              .group = "Passes",
+                              .help = "depth that is black in 8-bit pictures; used if pass-far is larger",
+                              .source = "British Columbia",
+                              .repeats = Repeats::tone,
+                              .least = 0,
+                              .most = 1e30,
+                              .unit = "units"}),
+    row<&Settings::passFar>(
+        {.name = "pass-far",
+         .group = "Passes",
+         .help = "depth that is white in 8-bit pictures; 0 takes the range of the picture",
          .source = "British Columbia",
          .repeats = Repeats::tone,
          .least = 0,
          .most = 1e30,
          .unit = "units"}),
-    row<&Settings::passFar>({.name = "pass-far",
-                             .group = "Passes",
-                             .help = "depth that 8-bit pictures show white; 0 takes the range of the picture",
-                             .source = "British Columbia",
-                             .repeats = Repeats::tone,
-                             .least = 0,
-                             .most = 1e30,
-                             .unit = "units"}),
     row<&Settings::threads>({.name = "threads",
                              .group = "Resources",
-                             .help = "threads that trace; 0 takes all",
+                             .help = "number of threads that trace; 0 takes all",
                              .source = "courses: -t",
                              .repeats = Repeats::nothing,
                              .least = 0,
                              .most = 1024}),
-    row<&Settings::accel>({.name = "accel",
-                           .group = "Resources",
-                           .help =
-                               "bounding volume hierarchy, or none: every object is tested for every ray; "
-                               "-b also takes one ray a pixel and no other stop than those on the line, "
-                               "whatever the scene asks for",
-                           .source = "courses: -b and -B",
-                           .repeats = Repeats::world}),
-    row<&Settings::timeLimit>(
-        {.name = "time-limit",
+    row<&Settings::accel>(
+        {.name = "accel",
          .group = "Resources",
-         .help = "stop this long after the start, at most a few seconds later; a render keeps what is done; "
-                 "0 never stops",
-         .source = "",
-         .repeats = Repeats::nothing,
-         .least = 0,
-         .most = 1e9,
-         .unit = "seconds"}),
-    row<&Settings::checkpointEvery>(
-        {.name = "checkpoint-every",
-         .group = "Resources",
-         .help = "how often the command writes what is done of a render beside its picture, to go on from if "
-                 "the machine fails; 0 writes none",
-         .source = "",
-         .repeats = Repeats::nothing,
-         .least = 0,
-         .most = 1e9,
-         .unit = "seconds"}),
+         .help = "bounding volume hierarchy, or none: every object is tested for every ray; -b also takes "
+                 "one ray a pixel and ignores the scene's limits, but not those of the command line",
+         .source = "courses: -b and -B",
+         .repeats = Repeats::world}),
+    row<&Settings::timeLimit>({.name = "time-limit",
+                               .group = "Resources",
+                               .help = "stop this long after the start, at most a few seconds later; a "
+                                       "render keeps its finished part; 0 never stops",
+                               .source = "",
+                               .repeats = Repeats::nothing,
+                               .least = 0,
+                               .most = 1e9,
+                               .unit = "seconds"}),
+    row<&Settings::checkpointEvery>({.name = "checkpoint-every",
+                                     .group = "Resources",
+                                     .help = "interval at which a render's state is written next to its "
+                                             "picture, to resume after a failure; 0 writes none",
+                                     .source = "",
+                                     .repeats = Repeats::nothing,
+                                     .least = 0,
+                                     .most = 1e9,
+                                     .unit = "seconds"}),
     row<&Settings::maxMemory>(
         {.name = "max-memory",
          .group = "Resources",
-         .help = "MiB of memory that a scene may take; 0 allows half of what the machine has",
+         .help = "MiB of memory that a scene may use; 0 allows half of the machine's memory",
          .source = "",
          .repeats = Repeats::nothing,
          .least = 0,

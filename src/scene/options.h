@@ -21,14 +21,14 @@ struct Option {
   std::string_view name;  ///< flag without "--", keyword in a scene file's settings { }
   std::string_view group;
   std::string_view unit;         ///< "" for pure numbers
-  double least, most;            ///< of numbers
+  double least, most;            ///< least and most of numbers
   std::string_view help;         ///< one sentence, no full stop
   std::string_view source;       ///< where the choice comes from; "" if it is Trace's own
   std::string_view integrators;  ///< which it concerns: "all" or names
   Repeats repeats;
   bool extra;  ///< an extension that is off by default
   Kind kind;
-  std::span<const std::string_view> choices;  ///< of Kind::choice and choices, in the order of the enum
+  std::span<const std::string_view> choices;  ///< names, in the order of the enum
 
   std::string (*get)(const Settings&);
   void (*set)(const Option&, Settings&, std::string_view value);

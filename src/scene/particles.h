@@ -18,9 +18,10 @@ namespace trace {
 
 struct Particles {
   static constexpr std::string_view kKeyword = "particles";
-  static constexpr std::string_view kHelp = "objects thrown out, moved by gravity, drag and wind, bouncing";
+  static constexpr std::string_view kHelp =
+      "particles: objects that are emitted, move by gravity, drag and wind, and bounce";
   static constexpr int kMostAlive = 100'000;
-  static constexpr double kMostSteps = 1e8;  ///< of all particles together
+  static constexpr double kMostSteps = 1e8;  ///< most steps of all particles together
 
   int seed = 1;
   Real rate = 50, begin = 0, duration = kNoLimit, lifetime = 2, lifetimeSpread = 0.2;
@@ -37,31 +38,33 @@ struct Particles {
     return Fields{
         Field{"seed", &Particles::seed, "", 0, kNoLimit, "another number, other particles"},
         Field{"rate", &Particles::rate, "", 0, kNoLimit, "particles a second"},
-        Field{"begin", &Particles::begin, "seconds", -kNoLimit, kNoLimit, "when the first is thrown"},
-        Field{"duration", &Particles::duration, "seconds", 0, kNoLimit, "for how long they are thrown"},
-        Field{"lifetime", &Particles::lifetime, "seconds", 0, kNoLimit, "of a particle"},
-        Field{"lifetime_spread", &Particles::lifetimeSpread, "", 0, 1, "how much it differs, in parts of it"},
-        Field{"position", &Particles::position, "", -kNoLimit, kNoLimit, "where they are thrown from"},
-        Field{"spread", &Particles::spread, "", 0, kNoLimit, "how far from there at most, in x, y and z"},
-        Field{"velocity", &Particles::velocity, "", -kNoLimit, kNoLimit, "with which they are thrown"},
+        Field{"begin", &Particles::begin, "seconds", -kNoLimit, kNoLimit, "start of the emission"},
+        Field{"duration", &Particles::duration, "seconds", 0, kNoLimit, "duration of the emission"},
+        Field{"lifetime", &Particles::lifetime, "seconds", 0, kNoLimit, "lifetime of a particle"},
+        Field{"lifetime_spread", &Particles::lifetimeSpread, "", 0, 1, "random variation, as a fraction"},
+        Field{"position", &Particles::position, "", -kNoLimit, kNoLimit, "where they are emitted"},
+        Field{"spread", &Particles::spread, "", 0, kNoLimit, "largest offset from there in x, y and z"},
+        Field{"velocity", &Particles::velocity, "", -kNoLimit, kNoLimit, "initial velocity"},
         Field{"velocity_spread", &Particles::velocitySpread, "", 0, kNoLimit,
-              "by how much it differs at most, in any direction"},
+              "its largest deviation, in any direction"},
         Field{"gravity", &Particles::gravity, "", -kNoLimit, kNoLimit, "acceleration"},
         Field{"wind", &Particles::wind, "", -kNoLimit, kNoLimit, "velocity of the air"},
         Field{"drag", &Particles::drag, "", 0, kNoLimit,
-              "of the air: share of the speed through it that is lost in a second"},
+              "fraction of the speed through the air that is lost in a second"},
         Field{"planes", &Particles::planes, "", -kNoLimit, kNoLimit,
-              "list of (x, y, z, d): they bounce where x, y, z times the place falls to d"},
+              "list of (x, y, z, d): they bounce where the dot product of (x, y, z) and the position falls "
+              "to d"},
         Field{"spheres", &Particles::spheres, "", -kNoLimit, kNoLimit,
               "list of (x, y, z, radius) that they bounce from"},
-        Field{"bounce", &Particles::bounce, "", 0, 1, "share of the speed kept across what is hit"},
-        Field{"friction", &Particles::friction, "", 0, 1, "share of the speed lost along it"},
+        Field{"bounce", &Particles::bounce, "", 0, 1, "fraction of the normal speed kept at a bounce"},
+        Field{"friction", &Particles::friction, "", 0, 1,
+              "fraction of the tangential speed lost at a bounce"},
         Field{"size", &Particles::size, "", 0, kNoLimit, "scale of the object at birth"},
         Field{"end_size", &Particles::endSize, "", 0, kNoLimit, "scale of the object at the end of its life"},
         Field{"color", &Particles::color, "", 0, kNoLimit,
-              "at birth; the material's emissive, ambient and diffuse are multiplied by it"},
-        Field{"end_color", &Particles::endColor, "", 0, kNoLimit, "at the end of its life"},
-        Field{"step", &Particles::step, "seconds", 1e-4, 1, "of the simulation"}};
+              "factor on the material's emissive, ambient and diffuse at birth"},
+        Field{"end_color", &Particles::endColor, "", 0, kNoLimit, "the factor at the end of its life"},
+        Field{"step", &Particles::step, "seconds", 1e-4, 1, "time step of the simulation"}};
   }
   bool operator==(const Particles&) const = default;
 };

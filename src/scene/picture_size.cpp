@@ -32,7 +32,7 @@ Real shownAcross(Stereo stereo) { return isAnaglyph(stereo) ? 1 : eyesAcross(ste
 
 Settings settingsFor(const Camera& camera, std::initializer_list<std::span<const Choice>> layers) {
   Settings settings = resolve(layers);
-  Settings sizes;  // of the layers so far
+  Settings sizes;  // sizes of the layers so far
   bool isScene = true;
   for (std::span<const Choice> layer : layers) {
     const double ratio = sizes.height > 0 ? static_cast<double>(sizes.width) / sizes.height : 0;

@@ -1,4 +1,4 @@
-// What the option `quality` stands for: samples, noise target, denoising, and the integrator that fits the
+// The meaning of the option `quality`: samples, noise target, denoising, and the integrator that fits the
 // scene. resolve() (options.h) takes a quality as a bundle of choices below all others of its layer.
 #pragma once
 

@@ -20,13 +20,12 @@ struct Rows {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"count", &Rows::count, "", 1, kMostObjects, "how many along x, y and z"},
-        Field{"step", &Rows::step, "", -kNoLimit, kNoLimit, "from one to the next along x, y and z"},
+        Field{"count", &Rows::count, "", 1, kMostObjects, "number of copies along x, y and z"},
+        Field{"step", &Rows::step, "", -kNoLimit, kNoLimit, "distance between copies along x, y and z"},
         Field{"spread", &Rows::spread, "", 0, kNoLimit,
-              "how far each lies from its place at most, by chance, along x, y and z"},
-        Field{"size_spread", &Rows::sizeSpread, "", 0, 1,
-              "how much larger or smaller each is at most, by chance, in parts of its size"},
-        Field{"seed", &Rows::seed, "", 0, kNoLimit, "another number, other chances"}};
+              "largest random offset of each copy along x, y and z"},
+        Field{"size_spread", &Rows::sizeSpread, "", 0, 1, "largest random change of size, as a fraction"},
+        Field{"seed", &Rows::seed, "", 0, kNoLimit, "seed of the random numbers"}};
   }
   bool operator==(const Rows&) const = default;
 

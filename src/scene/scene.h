@@ -55,7 +55,7 @@ struct UnusedMaterial {
   bool operator==(const UnusedMaterial&) const = default;
 };
 
-/// Copied and compared in one .cpp: it is dear to compile.
+/// Copied and compared in one .cpp: it is slow to compile.
 struct Scene {
   Scene();
   Scene(const Scene&);
@@ -76,7 +76,8 @@ struct Scene {
   std::vector<Choice> choices;  ///< options that the file sets, or that follow from its dialect
   std::vector<Unrendered> unrendered;
   std::vector<UnusedMaterial> unusedMaterials;
-  /// What the file left to Trace, in words: "a camera that shows all objects" (formats/kind_defaults.h).
+  /// The choices that the file left to Trace, in words: "a camera that shows all objects"
+  /// (formats/kind_defaults.h).
   std::vector<std::string> kindDefaults;
   InputFiles inputs;  ///< what it was read from
   Surroundings surroundings;

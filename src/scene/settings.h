@@ -18,7 +18,7 @@ namespace trace {
 
 enum class Accel { bvh, none };
 enum class IntegratorKind { whitted, path, direct, bdpt, mlt, photon, occlusion, normals, cost };
-/// What the chains of mlt move among: an integrator's samples, or paths, which are changed place by place.
+/// The state space of the chains of mlt: an integrator's samples, or paths, whose vertices are mutated.
 enum class Chains { bdpt, path, veach };
 /// How paths are changed place by place.
 enum class Mutation { bidirectional, lens, caustic, multiChain };
@@ -31,7 +31,7 @@ enum class Like { uw, uw2009, uw2001, ut, ubc, uw1998, usc };
 enum class Glass { perCrossing, perDistance };
 /// How much glass mirrors: what its material says, or by the angle.
 enum class Fresnel { constant, schlick, exact };
-/// Whether bodies of glass inside one another are told apart: where materials say `priority`, or always, or
+/// Whether glass objects inside one another are told apart: where materials say `priority`, or always, or
 /// never.
 enum class NestedGlass { byPriority, on, off };
 enum class GlassShadows { filtered, black };
@@ -49,11 +49,11 @@ enum class ShapeKind {};
 
 /// A picture beside the picture: a row of render/passes.cpp.
 enum class Pass { depth, normal, id, uv, position, samples, albedo, occlusion, change };
-/// What is measured in the pass "depth": along the view direction, or along the ray.
+/// The distance in the pass "depth": along the view direction, or along the ray.
 enum class PassDepth { view, ray };
 /// How files of passes are called: NAME.PASS.exr or NAME_PASS.exr.
 enum class PassName { dot, underscore };
-/// What levels of passes that are numbers look like.
+/// The look of levels of passes that are numbers.
 enum class PassColors { grey, heat };
 /// The file format of passes; same: that of the picture.
 enum class PassFormat { exr, png, same };

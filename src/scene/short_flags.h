@@ -17,8 +17,8 @@ struct ShortFlag {
 };
 std::span<const ShortFlag> shortFlags();
 
-/// What the flag -b of the courses' line means beside its option: one ray a pixel, and no early stop that the
-/// scene asks for. These come before the flags of the line, which therefore win wherever they stand.
+/// The meaning of the flag -b of the courses' line, besides its option: one ray a pixel, and no early stop
+/// that the scene asks for. These come before the flags of the line, which therefore win wherever they stand.
 inline constexpr char kPlainFlag = 'b';
 std::span<const Choice> plainChoices();
 

@@ -1,6 +1,6 @@
-// What is seen where nothing is met, as the scene says it: bands of colour across the picture, which only
-// camera rays see, or what is all around, which every ray sees: a gradient, a sky by day, and pictures on the
-// six faces of a cube before them.
+// The background of a scene, as its file gives it: bands of colour across the picture, which only
+// camera rays see, or what is all around, which every ray sees: a gradient, a daylight sky, and pictures on
+// the six faces of a cube before them.
 #pragma once
 
 #include <algorithm>
@@ -12,52 +12,53 @@
 #include "base/field.h"
 #include "math/color.h"
 #include "math/vec.h"
-#include "shading/textures/image_map.h"
+#include "shading/pixels.h"
 
 namespace trace {
 
 struct Background {
   static constexpr std::string_view kKeyword = "background";
   static constexpr std::string_view kHelp =
-      "bands of colour behind everything, from the top of the picture down; or a sky all around";
+      "background: bands of colour from the top of the picture down; or a sky";
 
   std::vector<Color> colors;  ///< from the top downward; none: black
   /// Where each band but the last ends, as a share of the picture's height from the top, ascending; none: all
   /// bands are equally high.
   std::vector<Real> limits;
   std::vector<Color> gradient{};   ///< all around, from straight down to straight up; none: no gradient
-  std::vector<Real> elevations{};  ///< of each, in degrees above the horizon, ascending; none: equally spaced
-  Real turbidity = 0;              ///< of a sky by day (shading/daylight.h); 0: none
+  std::vector<Real> elevations{};  ///< degrees above the horizon, ascending; none: evenly spaced
+  Real turbidity = 0;              ///< turbidity of a daylight sky (shading/daylight.h); 0: none
   Vec3 sun{1, 1, 1};               ///< the direction to it
   Real skyBrightness = 0.05;       ///< a colour of 1 for each 1 / skyBrightness kcd/m^2
-  Color ground{0.2, 0.2, 0.2};     ///< below the horizon of a sky by day
+  Color ground{0.2, 0.2, 0.2};     ///< below the horizon of a daylight sky
   /// On the faces of a cube around everything, as seen from inside: each covers its face from edge to edge,
-  /// upright for who looks at it from -z on. The top follows above the front, the bottom below it. What lies
+  /// upright as seen from -z on. The top follows above the front, the bottom below it. What lies
   /// behind is seen where there is none, and through its transparency (VRML97, section 6.5).
   Pixels front{}, back{}, left{}, right{}, top{}, bottom{};
 
   static constexpr auto fields() {
     return Fields{
-        Field{"colors", &Background::colors, "", 0, kNoLimit, "of the bands, from the top; none is black"},
+        Field{"colors", &Background::colors, "", 0, kNoLimit,
+              "colours of the bands, from the top; none is black"},
         Field{"limits", &Background::limits, "", 0, 1,
-              "where each band but the last ends, a share of the height from the top; none: equal bands"},
+              "where each band but the last ends, a fraction of the height from the top; none: equal bands"},
         Field{"gradient", &Background::gradient, "", 0, kNoLimit,
-              "colours all around, from straight down to straight up, seen in mirrors and glass too"},
+              "colours of a sky from straight down to straight up, seen in mirrors and glass too"},
         Field{"elevations", &Background::elevations, "degrees", -90, 90,
-              "where each colour of the gradient is, above the horizon; none: equally spaced"},
+              "elevation of each colour of the gradient above the horizon; none: evenly spaced"},
         Field{"turbidity", &Background::turbidity, "", 0, 10,
-              "of a sky by day: 2 clear, 6 hazy; 0 is no such sky"},
+              "turbidity of a daylight sky: 2 clear, 6 hazy; 0 is no such sky"},
         Field{"sun", &Background::sun, "", -kNoLimit, kNoLimit, "the direction to the sun of that sky"},
         Field{"sky_brightness", &Background::skyBrightness, "", 0, kNoLimit,
               "factor from its luminance, in kcd/m^2, to colours"},
         Field{"ground", &Background::ground, "", 0, kNoLimit, "the colour below its horizon"},
         Field{"front", &Background::front, "", 0, 0,
-              "a picture on a face of a cube around everything, at -z"},
+              "picture on the front face of a cube around the scene, at -z"},
         Field{"back", &Background::back, "", 0, 0, "the picture behind, at +z"},
         Field{"left", &Background::left, "", 0, 0, "the picture at the left, at -x"},
         Field{"right", &Background::right, "", 0, 0, "the picture at the right, at +x"},
-        Field{"top", &Background::top, "", 0, 0, "the picture above; it follows above the front"},
-        Field{"bottom", &Background::bottom, "", 0, 0, "the picture below; it follows below the front"}};
+        Field{"top", &Background::top, "", 0, 0, "the picture above; it continues above the front"},
+        Field{"bottom", &Background::bottom, "", 0, 0, "the picture below; it continues below the front"}};
   }
   /// In the order of EnvironmentMap::kFaceNames.
   std::array<const Pixels*, 6> faces() const { return {&right, &left, &top, &bottom, &back, &front}; }

@@ -10,7 +10,7 @@ namespace trace {
 namespace {
 
 constexpr Real kColdest = 500, kHottest = 20000, kCandle = 1900;
-constexpr int kBlackbodySteps = 256;  // of the logarithm of the temperature
+constexpr int kBlackbodySteps = 256;  // blackbody steps of the logarithm of the temperature
 
 /// Planck's law up to a factor.
 Real planck(Real nanometres, Real kelvin) {

@@ -7,8 +7,8 @@
 
 namespace trace {
 
-/// Linear Rec. 709, without what is below 0, in parts of the luminance of a body of 1,900 kelvin, which is
-/// about a candle's: it is 1 there, and grows steeply with the temperature. Black below 500 kelvin.
+/// Linear Rec. 709, without what is below 0, as a fraction of the luminance of a body of 1,900 kelvin, which
+/// is about a candle's: it is 1 there, and grows steeply with the temperature. Black below 500 kelvin.
 Color blackbodyColor(Real kelvin);
 
 }  // namespace trace

@@ -1,79 +1,57 @@
+// The functions of a model's Bsdf, as rows of a table, and mixtures of several models.
 #include "shading/bsdf.h"
 
+#include <array>
 #include <utility>
+
+#include "shading/material_list.h"
 
 namespace trace {
 
-Bsdf bsdfOf(const MaterialModel& model, const Rules& rules) {
-  return match(model, [&](const auto& said) -> Bsdf { return said.at(rules); });
-}
-
 Bsdf bsdfOf(const Material& material, const TexturePlace& place, const Rules& rules) {
-  return match(material.model, [&](auto said) -> Bsdf {
-    applyTextures(said, material.textures, place);
-    return said.at(rules);
-  });
+  return bsdfAt(material.model, material.textures, place, rules);
 }
 
-namespace {
+struct MixedParts;
 
-/// Phong's scatter() is given the normal alone, as it was before there were others.
-Scatter scatterOf(const PhongBsdf& model, const Frame& frame, const Vec3& toLight, const Vec3& toEye) {
-  return model.scatter(frame.normal, toLight, toEye);
-}
-template <class Model>
-Scatter scatterOf(const Model& model, const Frame& frame, const Vec3& toLight, const Vec3& toEye) {
-  return model.scatter(frame, toLight, toEye);
-}
+/// Parts of different models, by weight: each is asked by itself.
+struct MixedBsdf : WhittedTerms {
+  std::shared_ptr<const MixedParts> parts;
 
-}  // namespace
+  /// Fields common to models.
+  static constexpr auto fields() {
+    const auto named = [](const char* keyword, auto member) {
+      return Field{keyword, member, "", 0, kNoLimit, ""};
+    };
+    return Fields{
+        named("emissive", &MixedBsdf::emissive),     named("ambient", &MixedBsdf::ambient),
+        named("reflective", &MixedBsdf::reflective), named("transmissive", &MixedBsdf::transmissive),
+        named("index", &MixedBsdf::index),           named("shadow", &MixedBsdf::shadow)};
+  }
 
-Scatter scatterOfOthers(const Bsdf& bsdf, const Frame& frame, const Vec3& toLight, const Vec3& toEye) {
-  return match(bsdf, [&](const auto& model) { return scatterOf(model, frame, toLight, toEye); });
-}
-
-Color mirrorWeightOfOthers(const Bsdf& bsdf, Real cosine) {
-  return match(bsdf, [&](const auto& model) { return model.mirrorWeight(cosine); });
-}
+  bool scatters() const;
+  bool mirrorIsExact() const;
+  Color mirrorWeight(Real cosine) const;
+  Color exactMirrorWeight(Real cosine) const;
+  Color passWeight(Real cosine) const;
+  Scatter scatter(const Frame& frame, const Vec3& toLight, const Vec3& toEye) const;
+  Color evaluate(const Frame& frame, const Vec3& toEye, const Vec3& toLight, Transport transport) const;
+  std::optional<BsdfSample> sample(const Frame& frame, const Vec3& toEye, Real choose, Vec2 u,
+                                   Transport transport) const;
+  Real density(const Frame& frame, const Vec3& toEye, const Vec3& toLight) const;
+};
 
 Color exactMirrorWeight(const Bsdf& bsdf, Real cosine) {
-  if (const auto* mixed = std::get_if<MixedBsdf>(&bsdf)) return mixed->exactMirrorWeight(cosine);
+  if (const auto* mixed = bsdf.as<MixedBsdf>()) return mixed->exactMirrorWeight(cosine);
   return isGlossy(bsdf) ? Color(0) : mirrorWeight(bsdf, cosine);
 }
 
-Color passWeight(const Bsdf& bsdf, Real cosine) {
-  return match(bsdf, [&](const auto& model) { return model.passWeight(cosine); });
+bool isGlossy(const Bsdf& bsdf) {
+  return !bsdf.is<PhongBsdf>() && !bsdf.is<MixedBsdf>() && !mirrorIsExact(bsdf) &&
+         (bsdf.terms().mirrors() || bsdf.terms().transmits());
 }
 
-bool mirrorIsExact(const Bsdf& bsdf) {
-  return match(bsdf, [](const auto& model) { return model.mirrorIsExact(); });
-}
-
-bool isGlossyOfOthers(const Bsdf& bsdf) {
-  return !std::holds_alternative<MixedBsdf>(bsdf) && !mirrorIsExact(bsdf) &&
-         (whitted(bsdf).mirrors() || whitted(bsdf).transmits());
-}
-
-Color evaluateOfOthers(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,
-                       Transport transport) {
-  return match(bsdf, [&](const auto& model) { return model.evaluate(frame, toEye, toLight, transport); });
-}
-
-std::optional<BsdfSample> sample(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, Real choose, Vec2 u,
-                                 Transport transport) {
-  return match(bsdf, [&](const auto& model) { return model.sample(frame, toEye, choose, u, transport); });
-}
-
-Real densityOfOthers(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight) {
-  return match(bsdf, [&](const auto& model) { return model.density(frame, toEye, toLight); });
-}
-
-bool scattersOfOthers(const Bsdf& bsdf) {
-  return match(bsdf, [](const auto& model) { return model.scatters(); });
-}
-
-// --- mixtures
-// -----------------------------------------------------------------------------------------------
+// --- mixtures -----------------------------------------------------------------------------------------
 
 struct MixedParts {
   Bsdf of[3];
@@ -112,19 +90,6 @@ WhittedTerms weighedTerms(const MixedParts& parts) {
   return terms;
 }
 
-/// The mix of three materials of one model that says its values.
-template <class Model>
-requires requires { typename Model::Said; }
-Bsdf mixOf(const Model& a, const Model& b, const Model& c, const Real (&weight)[3]) {
-  const auto said = mixFields(a.said, b.said, c.said, weight);
-  if constexpr (requires { a.exactFresnel; })
-    return Model(said, a.exactFresnel);
-  else
-    return Model(said);
-}
-Bsdf mixOf(const PhongBsdf& a, const PhongBsdf& b, const PhongBsdf& c, const Real (&weight)[3]) {
-  return mix(a, b, c, weight);
-}
 Bsdf mixedParts(const Bsdf& a, const Bsdf& b, const Bsdf& c, const Real (&weight)[3]) {
   auto parts = std::make_shared<MixedParts>(MixedParts{{a, b, c}, {weight[0], weight[1], weight[2]}});
   return MixedBsdf{weighedTerms(*parts), parts};
@@ -183,24 +148,103 @@ Real MixedBsdf::density(const Frame& frame, const Vec3& toEye, const Vec3& toLig
                  [&](const Bsdf& part) { return trace::density(part, frame, toEye, toLight); });
 }
 
-bool hasGrainOfOthers(const Bsdf& bsdf) {
-  return match(bsdf, Overloaded{[](const MixedBsdf& mixed) {
-                                  return anyPart(*mixed.parts,
-                                                 [](const Bsdf& part) { return hasGrain(part); });
-                                },
-                                [](const PhongBsdf&) { return false; },
-                                [](const auto& model) {
-                                  return requires { model.said.angle; };
-                                }});
+// --- the rows -----------------------------------------------------------------------------------------
+
+namespace {
+
+template <class Model>
+const Model& held(const void* bsdf) {
+  return *static_cast<const Model*>(bsdf);
+}
+
+/// Phong's scatter() is given the normal alone, as it was before there were others.
+template <class Model>
+Scatter scatterOf(const void* bsdf, const Frame& frame, const Vec3& toLight, const Vec3& toEye) {
+  if constexpr (std::is_same_v<Model, PhongBsdf>)
+    return held<Model>(bsdf).scatter(frame.normal, toLight, toEye);
+  else
+    return held<Model>(bsdf).scatter(frame, toLight, toEye);
+}
+
+template <class Model>
+std::vector<ModelField> saidBy(void* bsdf) {
+  if constexpr (std::is_same_v<Model, PhongBsdf>)
+    return fieldsIn<ModelField, PhongBsdf>(bsdf);
+  else if constexpr (std::is_same_v<Model, MixedBsdf>)
+    return fieldsIn<ModelField, MixedBsdf>(bsdf);
+  else
+    return fieldsIn<ModelField, typename Model::Said>(&static_cast<Model*>(bsdf)->said);
+}
+
+template <class Model>
+bool hasGrainOf(const void* bsdf) {
+  if constexpr (std::is_same_v<Model, MixedBsdf>)
+    return anyPart(*held<MixedBsdf>(bsdf).parts, [](const Bsdf& part) { return hasGrain(part); });
+  else
+    return requires(const Model& model) { model.said.angle; };
+}
+
+/// The mix of three materials of one model that says its values.
+template <class Model>
+Bsdf mixOf(const Bsdf& a, const Bsdf& b, const Bsdf& c, const Real (&weight)[3]) {
+  const Model &x = *a.as<Model>(), &y = *b.as<Model>(), &z = *c.as<Model>();
+  if constexpr (std::is_same_v<Model, PhongBsdf>) {
+    return mix(x, y, z, weight);
+  } else if constexpr (std::is_same_v<Model, MixedBsdf>) {
+    return mixedParts(a, b, c, weight);
+  } else {
+    const auto said = mixFields(x.said, y.said, z.said, weight);
+    if constexpr (requires { x.exactFresnel; })
+      return Model(said, x.exactFresnel);
+    else
+      return Model(said);
+  }
+}
+
+template <class Model>
+consteval std::string_view keywordOfBsdf() {
+  if constexpr (std::is_same_v<Model, PhongBsdf>)
+    return Phong::kKeyword;
+  else if constexpr (std::is_same_v<Model, MixedBsdf>)
+    return "mixed";
+  else
+    return Model::Said::kKeyword;
+}
+
+}  // namespace
+
+template <class Model>
+constinit const BsdfRow BsdfRowOf<Model>::kRow{
+    .keyword = keywordOfBsdf<Model>(),
+    .copy = [](void* to, const void* from) { new (to) Model(held<Model>(from)); },
+    .destroy = [](void* bsdf) { static_cast<Model*>(bsdf)->~Model(); },
+    .said = saidBy<Model>,
+    .scatter = scatterOf<Model>,
+    .mirrorWeight = [](const void* bsdf, Real cosine) { return held<Model>(bsdf).mirrorWeight(cosine); },
+    .passWeight = [](const void* bsdf, Real cosine) { return held<Model>(bsdf).passWeight(cosine); },
+    .mirrorIsExact = [](const void* bsdf) { return held<Model>(bsdf).mirrorIsExact(); },
+    .evaluate =
+        [](const void* bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,
+           Transport transport) { return held<Model>(bsdf).evaluate(frame, toEye, toLight, transport); },
+    .sample =
+        [](const void* bsdf, const Frame& frame, const Vec3& toEye, Real choose, Vec2 u,
+           Transport transport) { return held<Model>(bsdf).sample(frame, toEye, choose, u, transport); },
+    .density = [](const void* bsdf, const Frame& frame, const Vec3& toEye,
+                  const Vec3& toLight) { return held<Model>(bsdf).density(frame, toEye, toLight); },
+    .scatters = [](const void* bsdf) { return held<Model>(bsdf).scatters(); },
+    .hasGrain = hasGrainOf<Model>,
+    .mix = mixOf<Model>};
+
+std::vector<const BsdfRow*> bsdfRows() {
+  return []<class... Model>(const std::variant<Model...>*) {
+    return std::vector<const BsdfRow*>{&BsdfRowOf<typename Model::Bsdf>::kRow...,
+                                       &BsdfRowOf<MixedBsdf>::kRow};
+  }(static_cast<const ModelList*>(nullptr));
 }
 
 Bsdf mix(const Bsdf& a, const Bsdf& b, const Bsdf& c, const Real (&weight)[3]) {
-  if (a.index() != b.index() || a.index() != c.index()) return mixedParts(a, b, c, weight);
-  return match(a, Overloaded{[&](const MixedBsdf&) { return mixedParts(a, b, c, weight); },
-                             [&](const auto& first) -> Bsdf {
-                               using Kind = std::remove_cvref_t<decltype(first)>;
-                               return mixOf(first, std::get<Kind>(b), std::get<Kind>(c), weight);
-                             }});
+  if (&a.row() != &b.row() || &a.row() != &c.row()) return mixedParts(a, b, c, weight);
+  return a.row().mix(a, b, c, weight);
 }
 
 }  // namespace trace

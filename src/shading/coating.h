@@ -77,7 +77,7 @@ struct Coating {
     return clamp01(sum);
   }
 
-  std::array<Color, kFresnelNodes> nodes_;  ///< of `fresnel`, where it is not Schlick's
+  std::array<Color, kFresnelNodes> nodes_;  ///< nodes of `fresnel`, where it is not Schlick's
 };
 
 }  // namespace trace

@@ -1,4 +1,4 @@
-// The light of a clear sky by day, of a sun and a turbidity: A. J. Preetham, P. Shirley and B. Smits, A
+// The light of a clear daylight sky, of a sun and a turbidity: A. J. Preetham, P. Shirley and B. Smits, A
 // Practical Analytic Model for Daylight, SIGGRAPH 1999, appendix A.2. Up is +y.
 #pragma once
 
@@ -32,7 +32,7 @@ class Daylight {
     Real at(Real cosTheta, Real gamma) const;
   };
 
-  Vec3 sun_;         // of length 1, not below the horizon
+  Vec3 sun_;         // direction of length 1, not below the horizon
   Real sunFromTop_;  // theta_s
   ColorXyY zenith_;
   Perez Y_, x_, y_;

@@ -8,8 +8,8 @@
 namespace trace {
 
 struct Differentials {
-  Vec3 originX, originY;        ///< of the ray's origin; once it has arrived, of the place on the surface
-  Vec3 directionX, directionY;  ///< of its unit direction
+  Vec3 originX, originY;        ///< derivatives of the origin; on arrival, of the hit point
+  Vec3 directionX, directionY;  ///< derivatives of its unit direction
 };
 
 /// The differentials of a ray of unit `direction` where it meets a plane of unit `normal` at distance t (10,

@@ -21,7 +21,7 @@ Real diffuseFresnelInside(Real index);
 
 /// The dipole of one colour channel.
 struct Dipole {
-  Real albedo = 0;            ///< of the surface: all that comes out of all that goes in
+  Real albedo = 0;            ///< albedo of the surface: all light that leaves over all that enters
   Real reduced = 0;           ///< a', the albedo of one scattering
   Real fade = 1;              ///< s, the effective transport coefficient
   Real above = 0, below = 0;  ///< heights of the virtual source and depth of the real one

@@ -168,7 +168,7 @@ Color EnvironmentMap::at(const Spot& s) const {
     if (y >= p.height - 1) return lerp(std::min(2 * (y - (p.height - 1)), 1.0), row(p.height - 1), bottom_);
     return lerp(fy, row(y0), row(y0 + 1));
   }
-  Color sum;  // of the texels inside the disc
+  Color sum;  // sum of the texels inside the disc
   Real weights = 0;
   for (int j = 0; j < 2; ++j)
     for (int i = 0; i < 2; ++i) {

@@ -29,7 +29,7 @@ class EnvironmentMap {
  public:
   /// Where a direction lies in the picture.
   struct Spot {
-    int face = 0;  ///< of a cube: index into kFaceNames
+    int face = 0;  ///< face of a cube: index into kFaceNames
     Vec2 uv;       ///< from 0 to 1, (0, 0) at the top left of the picture or face
   };
   static constexpr std::array<std::string_view, 6> kFaceNames{"right", "left", "up", "down", "back", "front"};
@@ -43,7 +43,7 @@ class EnvironmentMap {
   EnvironmentKind kind() const { return kind_; }
   /// The spot that a direction of any length but 0 meets.
   Spot spot(const Vec3& direction) const;
-  /// The same on a cube.
+  /// The direction of a place on a cube.
   static Spot cubeSpot(const Vec3& direction);
   /// The direction seen there, of length 1; (0, 0, 0) outside the disc of an angular map.
   Vec3 direction(const Spot& spot) const;
@@ -65,7 +65,7 @@ class EnvironmentMap {
 
   EnvironmentKind kind_;
   std::vector<Picture> pictures_;  // one, or six faces
-  Color top_, bottom_;             // of a lat-long map: its poles, the means of the first and the last row
+  Color top_, bottom_;             // poles of a lat-long map: means of its first and last row
 };
 
 /// The kind of one picture by its shape: 4 x 3 or 3 x 4 squares are a cross, a square is angular, anything
@@ -75,7 +75,7 @@ EnvironmentKind kindByShape(int width, int height);
 /// The face that a file shows by the end of its name: "sky_posx.png", "terrain_negative_z.png", "left.hdr".
 struct FaceName {
   int face = -1;     ///< index into kFaceNames; -1: none
-  std::string rest;  ///< of the name, without folder and suffix, in small letters: that of the whole cube
+  std::string rest;  ///< name without folder and suffix, in lower case: that of the cube
 };
 FaceName faceByName(std::string_view file);
 

@@ -14,7 +14,7 @@ struct Basis {
   Vec3 toWorld(const Vec3& v) const { return x * v.x + y * v.y + z * v.z; }
 };
 
-/// What a place gives; the rest is worked out where a material asks for it.
+/// The data of a place; the rest is computed where a material asks for it.
 struct Frame {
   Vec3 normal;          ///< unit, turned as the integrator shades it
   Vec3 along{};         ///< where u grows, of any length; 0 where that is not known or not asked

@@ -61,7 +61,7 @@ inline Color schlick(Real cosine, const Color& alongNormal) {
 inline Color meanSchlick(const Color& alongNormal) {
   return alongNormal + (Color(1) + alongNormal * -1) / 21;
 }
-/// What a smooth surface in air mirrors of light along its normal.
+/// The reflectance of a smooth surface in air along its normal.
 inline Real mirroredAlongNormal(Real index) {
   const Real r = (index - 1) / (index + 1);
   return r * r;

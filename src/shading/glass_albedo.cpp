@@ -11,7 +11,7 @@ namespace trace {
 namespace {
 
 constexpr int kCosines = 32, kWidths = 40, kIndices = 48;
-constexpr int kSamples = 48;  // of the first number for a facet; half as many of the second
+constexpr int kSamples = 48;  // samples of the first number for a facet; half as many of the second
 constexpr Real kMostIndex = 4;
 
 /// A stretch between two entries by the root t of the cosine, over which a value is taken to change evenly.
@@ -19,7 +19,7 @@ struct Stretch {
   Real low, width = 1.0 / kCosines;
 
   explicit Stretch(int entry) : low(static_cast<Real>(entry) / kCosines) {}
-  /// What it adds, up to t, to the mean over all directions weighed by the cosine, 2 cos d cos = 4 t^3 dt.
+  /// Its addition, up to t, to the mean over all directions weighed by the cosine, 2 cos d cos = 4 t^3 dt.
   Real mean(Real atLow, Real atHigh, Real t) const {
     const Real slope = (atHigh - atLow) / width, a4 = low * low * low * low, t4 = t * t * t * t;
     return (atLow - slope * low) * (t4 - a4) + slope * 0.8 * (t4 * t - a4 * low);
@@ -69,7 +69,7 @@ class GlassTable {
  public:
   explicit GlassTable(Distribution kind) : kind_(kind) {}
 
-  /// What ask(row) gives at the place, from the rows around it.
+  /// The value of ask(row) at the place, interpolated from the rows around it.
   template <class Ask>
   Real at(Real width, Real eta, const Ask& ask) {
     const Between index(((eta - 1) / (eta + 1) / kMost + 1) / 2, kIndices), w(std::sqrt(width), kWidths);

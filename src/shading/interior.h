@@ -1,4 +1,4 @@
-// What fills a body, as light that runs in it asks: a part of the materials that refract.
+// The interior of an object, as light inside sees it: a part of the materials that refract.
 #pragma once
 
 #include "base/field.h"
@@ -8,7 +8,7 @@
 namespace trace {
 
 struct Interior {
-  Real priority = 0;  ///< of bodies that overlap the one of the highest priority fills the place
+  Real priority = 0;  ///< where objects overlap, the highest priority fills the space
   Color attenuationColor{1};
   Real attenuationDistance = 1;
   Disperses dispersion = Disperses::byAbbe;
@@ -16,19 +16,19 @@ struct Interior {
 
   static constexpr auto fields() {
     return Fields{Field{"priority", &Interior::priority, "", -kNoLimit, kNoLimit,
-                        "where bodies of glass overlap, that of the highest fills the place"},
+                        "where glass objects overlap, the one of highest priority fills the space"},
                   Field{"attenuation_color", &Interior::attenuationColor, "", 0, 1,
-                        "what passes of white light along attenuation_distance inside"},
+                        "transmittance of white light over attenuation_distance inside"},
                   Field{"attenuation_distance", &Interior::attenuationDistance, "units", 0, kNoLimit,
-                        "way inside after which attenuation_color is left"},
+                        "distance inside with the transmittance attenuation_color"},
                   Field{"dispersion", &Interior::dispersion, "", 0, 0,
-                        "how the index changes with the wavelength: by abbe, or as that of an optical glass"},
+                        "dispersion of the index: by abbe, or that of an optical glass"},
                   Field{"abbe", &Interior::abbe, "", 0, kNoLimit,
-                        "Abbe's number: the smaller, the more light is dispersed; 0 does not disperse"}};
+                        "Abbe's number: a smaller one disperses more; 0 means no dispersion"}};
   }
   bool operator==(const Interior&) const = default;
 
-  /// Beer's law: what passes of a unit of length.
+  /// Beer's law: the transmittance of a unit of length.
   Color passesPerUnit() const {
     return attenuationColor == Color(1) ? Color(1) : pow(attenuationColor, 1 / attenuationDistance);
   }

@@ -1,4 +1,4 @@
-// What one facet of a clear layer in air mirrors: Schlick's approximation or Fresnel's formula for the
+// The reflectance of one facet of a clear layer in air: Schlick's approximation or Fresnel's formula for the
 // layer's index of refraction, and what a thin film on it changes. A film that vanishes changes nothing.
 #pragma once
 

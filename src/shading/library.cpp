@@ -7,7 +7,20 @@
 #include <string>
 #include <utility>
 
+#include "shading/materials/coated.h"
+#include "shading/materials/conductor.h"
+#include "shading/materials/oren_nayar.h"
+#include "shading/materials/principled.h"
+#include "shading/materials/subsurface.h"
+#include "shading/materials/velvet.h"
 #include "shading/substances.h"
+#include "shading/textures/brick.h"
+#include "shading/textures/clouds.h"
+#include "shading/textures/granite.h"
+#include "shading/textures/marble.h"
+#include "shading/textures/mix.h"
+#include "shading/textures/noise.h"
+#include "shading/textures/wood.h"
 
 namespace trace {
 namespace {
@@ -49,10 +62,9 @@ Material matt(const Color& color, Real roughness) {
 
 /// The colours are those of the texture.
 Material with(Material material, TextureNode texture) {
-  const auto white = [](auto& model) {
-    if constexpr (requires { model.diffuse; }) model.diffuse = model.ambient = Color(1);
-  };
-  match(material.model, white);
+  bool isDiffuse = false;
+  forEachField(material.model, [&](const ModelField& f, const auto&) { isDiffuse |= f.keyword == kDiffuse; });
+  if (isDiffuse) changeColors(material.model, {kDiffuse, kAmbient}, [](const Color&) { return Color(1); });
   const Texture shared = std::move(texture);
   setTexture(material.textures, kDiffuse, shared);
   setTexture(material.textures, kAmbient, shared);

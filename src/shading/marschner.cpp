@@ -63,9 +63,9 @@ MarschnerBsdf::MarschnerBsdf(const Marschner& model) : LocalBsdf(model) {
 }
 
 struct MarschnerBsdf::Seen {
-  std::array<Color, kLobes> share;    ///< of light that each lobe gets
+  std::array<Color, kLobes> share;    ///< share of light that each lobe gets
   std::array<Real, kLobes> often;     ///< how often it is chosen
-  std::array<Real, kLobes> sin, cos;  ///< of the eye's angle to the plane across the strand, by the scales
+  std::array<Real, kLobes> sin, cos;  ///< the eye's angle across the strand, by the scales
   std::array<Real, kLobes> turn;      ///< in which direction around the strand it lies
   Real around;                        ///< where the eye is
 

@@ -1,61 +1,61 @@
-// THE list of material models, and a material as a scene keeps it.
+// A material as a scene keeps it: a shading model of whatever type (material_list.h has the list), and what
+// every material has besides.
 #pragma once
 
 #include <array>
 #include <functional>
 #include <initializer_list>
-#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "base/match.h"
-#include "shading/materials/ashikhmin_shirley.h"
-#include "shading/materials/cel.h"
-#include "shading/materials/coated.h"
-#include "shading/materials/conductor.h"
-#include "shading/materials/cook_torrance.h"
-#include "shading/materials/gooch.h"
-#include "shading/materials/hair.h"
-#include "shading/materials/hatching.h"
-#include "shading/materials/lambert.h"
-#include "shading/materials/marschner.h"
-#include "shading/materials/oren_nayar.h"
+#include "base/listed.h"
 #include "shading/materials/phong.h"
-#include "shading/materials/principled.h"
-#include "shading/materials/rough_glass.h"
-#include "shading/materials/schlick_brdf.h"
-#include "shading/materials/subsurface.h"
-#include "shading/materials/thin_glass.h"
-#include "shading/materials/velvet.h"
-#include "shading/materials/ward.h"
 #include "shading/texture.h"
+#include "shading/textures/pattern.h"
 
 namespace trace {
 
-/// Copied and compared in one .cpp: where a variant of so many structs is copied, it is dear to compile.
-struct MaterialModel : std::variant<Phong, Lambert, OrenNayar, Conductor, Coated, Principled, CookTorrance,
-                                    Ward, SchlickModel, AshikhminShirley, Velvet, Hair, Marschner, RoughGlass,
-                                    ThinGlass, Cel, Gooch, Hatching, Subsurface> {
-  using variant::variant;
-  using variant::operator=;
-  MaterialModel();
-  MaterialModel(const MaterialModel&);
-  MaterialModel(MaterialModel&&) noexcept;
-  MaterialModel& operator=(const MaterialModel&);
-  MaterialModel& operator=(MaterialModel&&) noexcept;
-  ~MaterialModel();
-  bool operator==(const MaterialModel&) const;
+class Bsdf;
+
+/// A field of a shading model and where its value lies.
+struct ModelField : FieldValue<bool, int, Real, Color, ColorRamp> {};
+
+/// A row of the table of shading models.
+struct ModelType : ListedRow<ModelField> {
+  bool reciprocal;   ///< light may go either way along a path (shading/scattering.h)
+  bool keepsEnergy;  ///< no more light leaves than arrives
+  Bsdf (*bsdf)(const void* model, const Rules& rules);
+  /// At a place, with textures in place of fields.
+  Bsdf (*bsdfAt)(const void* model, const std::vector<FieldTexture>& textures, const TexturePlace& place,
+                 const Rules& rules);
+  Phong (*asPhong)(const void* model);
 };
 
-/// The model of that keyword, with its defaults; null if there is none.
-std::optional<MaterialModel> modelCalled(std::string_view keyword);
+std::span<const ModelType> modelTypes();
+/// Null if no model has that keyword.
+const ModelType* findModelType(std::string_view keyword);
 std::vector<std::string_view> modelKeywords();
-std::string_view keywordOf(const MaterialModel& model);
+template <>
+const ModelType& rowCalled<ModelType>(std::string_view keyword);
+
+/// How a surface scatters light. Copies share their data.
+class MaterialModel : public Listed<ModelType, ModelField> {
+ public:
+  using Listed::Listed;
+  /// Phong's.
+  MaterialModel() : Listed(modelTypes().front()) {}
+
+ private:
+  friend Bsdf bsdfOf(const MaterialModel& model, const Rules& rules);
+  friend Bsdf bsdfAt(const MaterialModel& model, const std::vector<FieldTexture>& textures,
+                     const TexturePlace& place, const Rules& rules);
+  friend Phong phongOf(const MaterialModel& model);
+};
 
 /// Which sides of a surface reflect light. Of `front` the back is dark; `both` turns the normal to the
-/// viewer's side first. It does not change what light passes into: there the two sides differ.
+/// viewer's side first. It does not change the transmitted side: there the two sides differ.
 enum class ShadedSides { front, both };
 constexpr std::array<std::string_view, 2> names(ShadedSides) { return {"front", "both"}; }
 
@@ -64,49 +64,49 @@ struct Material {
 
   std::string name;
   MaterialModel model;
-  std::vector<FieldTexture> textures{};  ///< of its model's fields, and of its own
+  std::vector<FieldTexture> textures{};  ///< textures of its model's fields, and of its own
   Real bump = 0;                         ///< its texture bends the normal for shading
   Real opacity = 1;                      ///< share of the surface that is there
   ShadedSides sides = ShadedSides::front;
   Real displacement = 0;       ///< moves the points of meshes (scene/displacement.h)
-  int displacementLevels = 0;  ///< so often each triangle is cut in four before
-  // What fills the body (shading/medium.h).
+  int displacementLevels = 0;  ///< / number of times each triangle is cut in four before
+  // The medium inside (shading/medium.h).
   Real mediumDensity = 0;
   Color mediumScatters{1}, mediumAbsorbs{}, mediumGlows{};
   Real mediumForward = 0;
 
-  /// What a material has whatever its model.
+  /// The fields of a material whatever its model.
   static constexpr auto fields() {
-    return Fields{
-        Field{"bump", &Material::bump, "units of the object", -kNoLimit, kNoLimit,
-              "how high the surface seems to stand where the texture that it scales is white"},
-        Field{"opacity", &Material::opacity, "", 0, 1,
-              "share of the surface that is there: through the rest light goes straight on"},
-        Field{"sides", &Material::sides, "", -kNoLimit, kNoLimit,
-              "which sides of an opaque surface reflect light"},
-        Field{"displacement", &Material::displacement, "units of the object", -kNoLimit, kNoLimit,
-              "how far the points of a mesh move along their normals; a texture of heights "
-              "scales it"},
-        Field{"displacement_levels", &Material::displacementLevels, "", 0, 10,
-              "so often each triangle of a mesh is cut in four before its points move"},
-        Field{"medium_density", &Material::mediumDensity, "per unit", 0, kNoLimit,
-              "of what fills the body: smoke, cloud, flame, milk; 0: nothing. A texture counts from 0 to 1"},
-        Field{"medium_scatters", &Material::mediumScatters, "", 0, kNoLimit,
-              "how much light is scattered along a unit of length where the density is 1"},
-        Field{"medium_absorbs", &Material::mediumAbsorbs, "", 0, kNoLimit,
-              "how much is swallowed there: soot, ink"},
-        Field{"medium_glows", &Material::mediumGlows, "", 0, kNoLimit, "light that is given off there: fire"},
-        Field{"medium_forward", &Material::mediumForward, "", -1, 1,
-              "how much more light is scattered on than back; a cloud has 0.85, smoke 0.5"}};
+    return Fields{Field{"bump", &Material::bump, "units of the object", -kNoLimit, kNoLimit,
+                        "apparent height of the surface where its texture is white"},
+                  Field{"opacity", &Material::opacity, "", 0, 1,
+                        "coverage of the surface: light passes straight through the rest"},
+                  Field{"sides", &Material::sides, "", -kNoLimit, kNoLimit,
+                        "which sides of an opaque surface reflect light"},
+                  Field{"displacement", &Material::displacement, "units of the object", -kNoLimit, kNoLimit,
+                        "how far the points of a mesh move along their normals; a texture of heights "
+                        "scales it"},
+                  Field{"displacement_levels", &Material::displacementLevels, "", 0, 10,
+                        "number of subdivision levels before the points move"},
+                  Field{"medium_density", &Material::mediumDensity, "per unit", 0, kNoLimit,
+                        "density of the medium inside: smoke, cloud, flame, milk; 0: none. A texture is "
+                        "clamped to 0 to 1"},
+                  Field{"medium_scatters", &Material::mediumScatters, "", 0, kNoLimit,
+                        "scattering coefficient per unit of length at density 1"},
+                  Field{"medium_absorbs", &Material::mediumAbsorbs, "", 0, kNoLimit,
+                        "absorption coefficient: soot, ink"},
+                  Field{"medium_glows", &Material::mediumGlows, "", 0, kNoLimit, "emission: fire"},
+                  Field{"medium_forward", &Material::mediumForward, "", -1, 1,
+                        "mean cosine of the scattering angle; a cloud has 0.85, smoke 0.5"}};
   }
   bool operator==(const Material&) const = default;
 };
 
-/// Keywords of colours that models have in common: what a surface gives off, its share of the ambient light,
+/// Keywords of colours that models have in common: what a surface emits, its share of the ambient light,
 /// and what it looks like, which is `color` where it is no diffuse reflectance.
 inline constexpr std::string_view kEmissive = "emissive", kAmbient = "ambient", kDiffuse = "diffuse",
                                   kColor = "color";
-/// And what every material has, whatever its model.
+/// The keywords that every material has, whatever its model.
 inline constexpr std::string_view kOpacity = "opacity";
 /// color = change(color) for those of the keywords that the model has.
 void changeColors(MaterialModel& model, std::initializer_list<std::string_view> keywords,
@@ -114,7 +114,7 @@ void changeColors(MaterialModel& model, std::initializer_list<std::string_view> 
 
 /// Fields of the same keyword and type keep their values; the others get the defaults of model `to`.
 MaterialModel converted(const MaterialModel& from, const MaterialModel& to);
-/// The same of a material, whose textures stay where there still is a field for them.
+/// The model of a material, whose textures stay where there still is a field for them.
 Material withModel(Material material, const MaterialModel& to);
 
 /// Changes every picture of the material's textures: change(Pixels&).
@@ -126,9 +126,10 @@ void changePixels(Material& material, const Change& change) {
 /// As Phong's model says it, for formats and checks that know no other: its own values, or the nearest to
 /// them.
 Phong phongOf(const MaterialModel& model);
-/// The same for a material; one that is not wholly there lets light through.
+/// The Phong approximation of a material; one with holes transmits light.
 Phong phongOf(const Material& material);
-/// The same for formats that have no holes: what a texture makes transparent in places is opaque.
+/// The Phong approximation for formats that have no holes: what a texture makes transparent in places is
+/// opaque.
 Phong phongWithoutTextures(const Material& material);
 
 inline bool glows(const Material& material) { return !isBlack(phongOf(material).emissive); }

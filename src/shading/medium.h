@@ -1,4 +1,4 @@
-// What fills a body and scatters, swallows or gives off light on its way: smoke, clouds, milk, fire. A part
+// A medium inside an object that scatters, absorbs or emits light: smoke, clouds, milk, fire. A part
 // of the material (medium_density and the other fields), as light that runs in it asks.
 #pragma once
 
@@ -21,7 +21,7 @@ struct Medium {
   Color loses() const { return scatters + absorbs; }
 };
 
-/// The part of light from `toLight` that goes on where a ray comes from that runs along `direction`: per
+/// The part of light from `toLight` that continues where a ray comes from that runs along `direction`: per
 /// solid angle, in all 1 (Henyey and Greenstein 1941), from the cosine of the two.
 inline Real phase(Real forward, Real cosine) {
   const Real base = 1 + forward * forward - 2 * forward * cosine;
@@ -37,7 +37,7 @@ inline Real phaseCosine(Real forward, Real u) {
 inline constexpr Real kMostForward = 0.999;
 
 /// The medium in a body of that material, with its textures. What textures make of a field lies between 0 and
-/// what the material says, but for what glows: so it is known how dense the medium is at most.
+/// what the material says, except for what glows: so it is known how dense the medium is at most.
 class MediumModel {
  public:
   MediumModel() = default;

@@ -93,7 +93,7 @@ template <class Visit>
 void forEachMirror(const Microfacets& facets, const Vec3& eye, int samples, const Visit& visit) {
   const bool slopes = facets.kind == Distribution::beckmann;
   const Vec3 v = stretched(facets, eye);
-  const auto even = [&](int j) { return EndCell{(j + 0.5) / samples, 1.0 / samples}; };  // of an angle
+  const auto even = [&](int j) { return EndCell{(j + 0.5) / samples, 1.0 / samples}; };  // sampling an angle
   const auto second = [&](int j) { return slopes ? EndCell(j, samples) : even(j); };
   std::vector<Real> across;
   for (int j = 0; slopes && j < samples; ++j) across.push_back(inverseErf(2 * second(j).middle - 1));
@@ -148,7 +148,7 @@ Vec3 seenFrom(int step, int steps, Real along = 1) {
   return {sine * along, sine * std::sqrt(1 - along * along), cosine};
 }
 
-constexpr Real kMostRoughness = 1.8;  // of a width of 3.2, that of strong grain
+constexpr Real kMostRoughness = 1.8;  // width 3.2, that of strong grain
 
 /// Without grain: by the roots of cosine and width, where the albedo changes evenly.
 struct EvenTable {

@@ -55,7 +55,7 @@ struct Microfacets {
   /// One of them.
   Vec3 chosen(const Vec3& eye, Vec2 u) const;
 
-  /// What mirrors of reflectance 1 scatter of `light` to `eye`: f cos(light). Both above the surface.
+  /// The scattering of `light` to `eye` by mirrors of reflectance 1: f cos(light). Both above the surface.
   Real mirrored(const Vec3& eye, const Vec3& light, const Vec3& half) const {
     return spread(half) * seenAndLit(eye, light) / (4 * eye.z);
   }
@@ -75,7 +75,7 @@ struct Microfacets {
   }
 };
 
-/// What comes from `eye` refracted at the facet; eta = index behind / index before. Precondition: none of it
+/// The light from `eye` refracted at the facet; eta = index behind / index before. Precondition: none of it
 /// is mirrored totally.
 inline Vec3 refractedAt(const Vec3& half, const Vec3& eye, Real eta) {
   const Real cosine = dot(eye, half), behind = std::sqrt(max(0, 1 - (1 - cosine * cosine) / (eta * eta)));
@@ -94,7 +94,7 @@ MicrofacetAlbedo microfacetAlbedo(const Microfacets& facets, const Vec3& eye);
 /// The mean over all directions, weighed by the cosine.
 MicrofacetAlbedo meanMicrofacetAlbedo(const Microfacets& facets);
 
-/// What facets give back where their reflectance is any smooth function of the cosine, known at these nodes:
+/// The albedo of facets whose reflectance is any smooth function of the cosine, known at these nodes:
 /// Chebyshev's for a polynomial from 0 to 1, which is off by less than 1e-4 for glass (Trefethen,
 /// Approximation Theory and Approximation Practice, 2013, chapter 8).
 inline constexpr std::size_t kFresnelNodes = 8;
@@ -106,7 +106,7 @@ using FacetShares = std::array<Real, kFresnelNodes>;
 FacetShares facetShares(const Microfacets& facets, const Vec3& eye);
 /// The mean over all directions, weighed by the cosine.
 FacetShares meanFacetShares(const Microfacets& facets);
-/// The same of a smooth surface.
+/// The scattering of a smooth surface.
 const FacetShares& meanFresnelShares();
 
 /// Microfacets that mirror by Schlick's formula or another, and what is lost in it for light that is mirrored
@@ -134,7 +134,7 @@ struct MicrofacetLobe {
       sum += multiple * ((1 - white(eye)) * (1 - white(light)) / (kPi * (1 - meanWhite)) * light.z);
     return sum;
   }
-  /// What is given back of light to `eye`, by facets that mirror by Schlick's formula.
+  /// The light reflected to `eye` by facets with Schlick's formula.
   Color albedo(const Vec3& eye, const Color& alongNormal) const {
     const MicrofacetAlbedo once = microfacetAlbedo(facets, eye);
     return once.of(alongNormal) + multiple * (1 - once.white);

@@ -7,7 +7,7 @@ namespace trace {
 
 /// Which angle the highlight measures: normal against half-way vector, or eye against mirrored light.
 enum class Highlight { blinn, phong };
-/// What a material mirrors that gives no `reflective`.
+/// The reflection of a material that gives no `reflective`.
 enum class MirrorDefault { specular, zero };
 /// Which sides of a surface are lit.
 enum class DiffuseSides { front, bothOnGlass };

@@ -1,4 +1,4 @@
-// What all Bsdfs share: the terms that Whitted's equation asks for, samples, and fields of all materials.
+// Parts common to all Bsdfs: the terms of Whitted's equation, samples, and fields of all materials.
 //
 // THE CONTRACT. Directions are unit vectors that point away from the surface, those of models in the space of
 // a Basis (z is the normal). `evaluate` is f(toEye, toLight) |cos(toLight)|: with the cosine. `density` is
@@ -21,11 +21,11 @@
 
 namespace trace {
 
-/// What is carried from toLight to toEye: radiance, by paths from the eye, or importance, by paths from a
-/// lamp, where `toEye` is where the path comes from. They differ where light goes into another medium.
+/// The quantity carried from toLight to toEye: radiance, by paths from the eye, or importance, by paths from
+/// a lamp, where `toEye` is where the path comes from. They differ where light goes into another medium.
 enum class Transport { radiance, importance };
 
-/// What a surface scatters of a light, in parts.
+/// The scattering of a light by a surface, in parts.
 struct Scatter {
   Color diffuse, specular;
   Color sum() const { return diffuse + specular; }
@@ -42,15 +42,15 @@ struct BsdfSample {
 /// crosses straight on.
 enum class Passage { asSaid, byFresnel, straight };
 
-/// What Whitted's equation asks of a surface besides what it scatters.
+/// The terms of Whitted's equation for a surface besides its scattering.
 struct WhittedTerms {
   Color emissive, ambient;
   Color reflective, transmissive;  ///< weights of the mirrored, along the normal, and of the refracted ray
-  Real index = 1;                  ///< of refraction
+  Real index = 1;                  ///< index of refraction
   Real shadow = 1;                 ///< share of a light that a shadow takes away
   Real priority = 0;               ///< what of overlapping bodies fills a place (shading/interior.h)
-  Color attenuation{1};            ///< what passes of a unit of length inside
-  Dispersion dispersion;           ///< of the index
+  Color attenuation{1};            ///< the transmittance of a unit of length inside
+  Dispersion dispersion;           ///< dispersion of the index
   Passage passage = Passage::asSaid;
   Real sharp = 1;           ///< the part of a lobe for which one ray stands, where passage is byFresnel
   bool litThrough = false;  ///< light from behind crosses the body, and `evaluate` knows how much is left
@@ -71,11 +71,10 @@ struct SurfaceFields {
   Real shadow = 1;  ///< how dark shadows on it are: 0 shows none
 
   static constexpr auto fields() {
-    return Fields{
-        Field{"emissive", &SurfaceFields::emissive, "", 0, kNoLimit, "light the surface gives off by itself"},
-        Field{"ambient", &SurfaceFields::ambient, "", 0, 1, "share of the ambient light given back"},
-        Field{"shadow", &SurfaceFields::shadow, "", 0, 1,
-              "share of a light that a shadow on the surface takes away"}};
+    return Fields{Field{"emissive", &SurfaceFields::emissive, "", 0, kNoLimit, "emitted light"},
+                  Field{"ambient", &SurfaceFields::ambient, "", 0, 1, "reflectance for ambient light"},
+                  Field{"shadow", &SurfaceFields::shadow, "", 0, 1,
+                        "fraction of a light that a shadow on the surface takes away"}};
   }
   bool operator==(const SurfaceFields&) const = default;
 };
@@ -95,7 +94,7 @@ Struct mixFields(const Struct& a, const Struct& b, const Struct& c, const Real (
   return m;
 }
 
-// --- directions chosen by chance, in the space of a Basis -------------------------------------------------
+// --- directions chosen at random, in the space of a Basis -------------------------------------------------
 
 inline Vec3 sphericalDirection(Real cosTheta, Real phi) {
   const Real sine = std::sqrt(max(0, 1 - cosTheta * cosTheta));
@@ -126,7 +125,7 @@ inline Vec3 mirroredAt(const Vec3& half, const Vec3& eye) { return half * (2 * d
 
 // --- models ------------------------------------------------------------------------------------------------
 
-/// What a Bsdf that is worked out in the space of a Basis has from its three functions there:
+/// Functions that a Bsdf that is computed in the space of a Basis has from its three functions there:
 ///   Scatter value(eye, light) const         f |cos|, where eye.z > 0 and light.z > 0; finite
 ///   Vec3 direction(eye, choose, u) const    chosen by the numbers from 0 to 1; eye.z > 0
 ///   Real directionDensity(eye, light) const of that choice

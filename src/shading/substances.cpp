@@ -33,7 +33,7 @@ constexpr std::array kSubstances{
     Substance{"carbon disulfide", "liquid", 1.6276, 18.4, kCrc},
     Substance{"diiodomethane", "liquid", 1.7411, 0, kCrc, {}, {0.95, 0.85, 0.5}},
 
-    Substance{"glass", "glass", 1.5, 60, "what scenes say who need not know more"},
+    Substance{"glass", "glass", 1.5, 60, "generic value for scenes"},
     Substance{"window glass", "glass", 1.523, 58.6, kKaye, {}, {0.93, 0.98, 0.95}},
     Substance{"bottle glass", "glass", 1.52, 58, kKaye, {}, {0.2, 0.65, 0.25}},
     Substance{"fused silica", "glass", 1.45846, 67.8, kCrc},

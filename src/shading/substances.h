@@ -1,5 +1,5 @@
-// THE table of substances: indices of refraction of what light passes. shading/library.h makes materials of
-// them.
+// THE table of substances: indices of refraction of transparent materials. shading/library.h makes materials
+// of them.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ struct Substance {
   Real abbe = 0;  ///< Abbe's number; 0: not in the table
   std::string_view source{};
   Disperses dispersion = Disperses::byAbbe;
-  Color color{1};  ///< what passes of a unit of length, as a picture of it looks; chosen by eye
+  Color color{1};  ///< the transmittance of a unit of length, as a picture of it looks; chosen by eye
 };
 
 std::span<const Substance> substances();
@@ -30,7 +30,7 @@ struct Translucent {
   std::string_view name;
   Color scatters, absorbs;
   Real index;
-  Real roughness;  ///< of its surface, by eye
+  Real roughness;  ///< roughness of its surface, by eye
   std::string_view source;
 };
 

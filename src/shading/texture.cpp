@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
+
+#include "shading/textures/image_map.h"
 
 namespace trace {
 
@@ -22,14 +25,6 @@ Affine patternFromObject(const TexturePlacement& p) {
   const Affine placed = Affine::translation(p.translate) * turn({0, 0, 1}, p.rotate.z) *
                         turn({0, 1, 0}, p.rotate.y) * turn({1, 0, 0}, p.rotate.x) * Affine::scaling(p.scale);
   return invertible(placed) ? inverse(placed) : Affine{};
-}
-
-template <class Model>
-bool looksAtUv(const Model& model) {
-  if constexpr (requires { model.space; })
-    return model.space == TextureSpace::uv;
-  else
-    return requires { model.wantsUv(); };
 }
 
 /// u and v where they are looked at.
@@ -54,16 +49,6 @@ TexturePlace moved(const TexturePlace& p, const Affine& m, bool inUv) {
 
 }  // namespace
 
-TextureModel::TextureModel() = default;
-TextureModel::TextureModel(const TextureModel&) = default;
-TextureModel::TextureModel(TextureModel&&) noexcept = default;
-TextureModel& TextureModel::operator=(const TextureModel&) = default;
-TextureModel& TextureModel::operator=(TextureModel&&) noexcept = default;
-TextureModel::~TextureModel() = default;
-bool TextureModel::operator==(const TextureModel& other) const {
-  return static_cast<const variant&>(*this) == static_cast<const variant&>(other);
-}
-
 const Texture* textureOf(const std::vector<FieldTexture>& textures, std::string_view field) {
   for (const FieldTexture& t : textures)
     if (t.field == field) return &t.texture;
@@ -87,7 +72,7 @@ Texture::Texture(TextureNode node) {
   auto data = std::make_shared<Data>(Data{std::move(node), false, false, {}, 1});
   data->moved = !(data->node.placement == TexturePlacement{});
   if (data->moved) data->patternFromObject = patternFromObject(data->node.placement);
-  data->inUv = match(data->node.model, [](const auto& model) { return looksAtUv(model); });
+  data->inUv = data->node.model.wantsUv();
   for (const FieldTexture& input : data->node.inputs) {
     data->size += input.texture.size();
     data->inUv |= input.texture.data_->inUv;
@@ -109,64 +94,31 @@ Color Texture::at(const TexturePlace& place) const {
 }
 
 Color Texture::at(const TextureNode& node, const TexturePlace& place) {
-  return match(node.model, [&](const auto& model) {
-    if (node.inputs.empty()) return model.at(place);
-    auto own = model;
-    if constexpr (requires { own.pattern(place); }) {
-      for (const FieldTexture& t : node.inputs)
-        if (t.field != "a" && t.field != "b") applyTexture(own, t, place);
-      const Real pattern = own.pattern(place);
-      for (const FieldTexture& t : node.inputs)
-        if ((t.field == "a" && pattern < 1) || (t.field == "b" && pattern > 0)) applyTexture(own, t, place);
-      return own.shade(pattern);
-    } else {
-      applyTextures(own, node.inputs, place);
-      return own.at(place);
-    }
-  });
+  return node.model.at(node.inputs, place);
 }
 
 namespace {
 
 /// Whether asks(model) of the texture or of one in it.
-template <class Ask>
-bool anyModel(const Texture& texture, const Ask& asks) {
-  return match(texture->model, asks) ||
+bool anyModel(const Texture& texture, bool (TextureModel::*asks)() const) {
+  return (texture->model.*asks)() ||
          std::any_of(texture->inputs.begin(), texture->inputs.end(),
                      [&](const FieldTexture& input) { return anyModel(input.texture, asks); });
 }
 
 }  // namespace
 
-bool wantsFootprint(const Texture& texture) {
-  return anyModel(texture, [](const auto& model) {
-    if constexpr (requires { model.wantsFootprint(); })
-      return model.wantsFootprint();
-    else
-      return requires { model.octaves; };
-  });
-}
-
-bool wantsUv(const Texture& texture) {
-  return anyModel(texture, [](const auto& model) { return looksAtUv(model); });
-}
-
-bool wantsSecondUv(const Texture& texture) {
-  return anyModel(texture, [](const auto& model) {
-    if constexpr (requires { model.secondUv; })
-      return model.secondUv;
-    else
-      return false;
-  });
-}
+bool wantsFootprint(const Texture& texture) { return anyModel(texture, &TextureModel::wantsFootprint); }
+bool wantsUv(const Texture& texture) { return anyModel(texture, &TextureModel::wantsUv); }
+bool wantsSecondUv(const Texture& texture) { return anyModel(texture, &TextureModel::wantsSecondUv); }
 
 std::string summary(const Texture& texture) {
   if (!texture->name.empty()) return texture->name;
-  return match(texture->model, [](const auto& model) {
-    std::string kind(model.kKeyword);
-    if constexpr (requires { model.file; }) kind += " " + model.file.file;
-    return kind;
+  std::string kind(texture->model.keyword());
+  forEachField(texture->model, [&]<class Value>(const TextureField&, const Value& value) {
+    if constexpr (std::is_same_v<Value, Pixels>) kind += " " + value.file;
   });
+  return kind;
 }
 
 Texel ImageMap::texelAt(const TexturePlace& place) const {

@@ -1,58 +1,59 @@
-// THE list of textures, and a texture as a scene keeps it: a value that changes over a surface.
-//
-// Each is one header in shading/textures/: a struct with kKeyword, kHelp, fields() and
-//   Color at(const TexturePlace&) const;
-// which gives a finite colour at a finite place. One that has colours a and b says how they are mixed
-// instead,
-//   Real pattern(const TexturePlace&) const;    0 is a, 1 is b
-//   Color shade(Real pattern) const;
-// so that a texture in place of one is not asked where only the other is seen.
-// One that looks at the footprint, or at u and v without a field `space`, says so; sums of octaves always do:
-//   bool wantsFootprint() const;
-//   bool wantsUv() const;
+// A texture as a scene keeps it: a value that changes over a surface. texture_list.h has the list of types.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
-#include <variant>
 #include <vector>
 
-#include "base/match.h"
+#include "base/listed.h"
 #include "math/transform.h"
+#include "shading/formula_text.h"
+#include "shading/pixels.h"
 #include "shading/texture_place.h"
-#include "shading/textures/blackbody.h"
-#include "shading/textures/brick.h"
-#include "shading/textures/cells.h"
-#include "shading/textures/checker.h"
-#include "shading/textures/clouds.h"
-#include "shading/textures/formula.h"
-#include "shading/textures/gradient.h"
-#include "shading/textures/granite.h"
-#include "shading/textures/image_map.h"
-#include "shading/textures/marble.h"
-#include "shading/textures/mix.h"
-#include "shading/textures/noise.h"
-#include "shading/textures/ramp.h"
-#include "shading/textures/spots.h"
-#include "shading/textures/wood.h"
+#include "shading/textures/pattern.h"
 
 namespace trace {
 
-/// Copied and compared in one .cpp, as a MaterialModel is.
-struct TextureModel : std::variant<ImageMap, Checker, Brick, Gradient, Spots, Noise, Marble, Wood, Granite,
-                                   Clouds, Cells, Ramp, Mix, Formula, Blackbody> {
-  using variant::variant;
-  using variant::operator=;
-  TextureModel();
-  TextureModel(const TextureModel&);
-  TextureModel(TextureModel&&) noexcept;
-  TextureModel& operator=(const TextureModel&);
-  TextureModel& operator=(TextureModel&&) noexcept;
-  ~TextureModel();
-  bool operator==(const TextureModel&) const;
+struct FieldTexture;
+
+/// A field of a texture and where its value lies.
+struct TextureField
+    : FieldValue<bool, int, Real, Vec3, Color, ColorRamp, std::array<Real, 6>, Pixels, FormulaText> {};
+
+/// A row of the table of textures.
+struct TextureType : ListedRow<TextureField> {
+  /// At a place, with textures in place of fields.
+  Color (*at)(const void* model, const std::vector<FieldTexture>& inputs, const TexturePlace& place);
+  bool (*wantsFootprint)(const void* model);
+  bool (*wantsUv)(const void* model);
+  bool (*wantsSecondUv)(const void* model);
+};
+
+std::span<const TextureType> textureTypes();
+/// Null if no texture has that keyword.
+const TextureType* findTextureType(std::string_view keyword);
+template <>
+const TextureType& rowCalled<TextureType>(std::string_view keyword);
+
+/// A texture of whatever type. Copies share their data.
+class TextureModel : public Listed<TextureType, TextureField> {
+ public:
+  using Listed::Listed;
+  /// A picture.
+  TextureModel() : Listed(textureTypes().front()) {}
+
+  Color at(const std::vector<FieldTexture>& inputs, const TexturePlace& place) const {
+    return type().at(data(), inputs, place);
+  }
+  /// It looks at how large a part of the surface a place stands for.
+  bool wantsFootprint() const { return type().wantsFootprint(data()); }
+  bool wantsUv() const { return type().wantsUv(data()); }
+  bool wantsSecondUv() const { return type().wantsSecondUv(data()); }
 };
 
 /// How a pattern stands in its object: first scaled, then turned about x, y and z, then moved. What lies in u
@@ -65,14 +66,13 @@ struct TexturePlacement {
     return Fields{
         Field{"scale", &TexturePlacement::scale, "", -kNoLimit, kNoLimit, "makes the pattern larger"},
         Field{"rotate", &TexturePlacement::rotate, "degrees", -kNoLimit, kNoLimit,
-              "turns it about x, then y, then z"},
+              "rotates it about x, then y, then z"},
         Field{"translate", &TexturePlacement::translate, "", -kNoLimit, kNoLimit, "moves it"}};
   }
   bool operator==(const TexturePlacement&) const = default;
 };
 
 struct TextureNode;
-struct FieldTexture;
 
 /// Constant data that copies share.
 class Texture {
@@ -82,7 +82,8 @@ class Texture {
   const TextureNode& operator*() const;
   const TextureNode* operator->() const { return &**this; }
   Color at(const TexturePlace& place) const;
-  /// How many textures one place asks, this one and those in it; one that stands in two places counts twice.
+  /// The number of textures that one place evaluates, this one and those in it; one that stands in two places
+  /// counts twice.
   double size() const;
 
   /// Two that share their data are equal at once.
@@ -129,7 +130,7 @@ bool wantsSecondUv(const Texture& texture);
 /// A few words for a person: its name, or what it is.
 std::string summary(const Texture& texture);
 
-/// What a number takes of a colour: of a grey that grey, to the last bit.
+/// The number that stands for a colour: of a grey that grey, to the last bit.
 constexpr Real luminance(const Color& c) {
   return c.r == c.g && c.g == c.b ? c.r : 0.299 * c.r + 0.587 * c.g + 0.114 * c.b;
 }
@@ -155,8 +156,8 @@ void applyTextures(Struct& to, const std::vector<FieldTexture>& textures, const 
 template <class Change>
 Texture withPixels(const Texture& texture, const Change& change) {
   TextureNode node = *texture;
-  match(node.model, [&](auto& model) {
-    if constexpr (requires { model.file; }) change(model.file);
+  editEachField(node.model, [&]<class Value>(const TextureField&, Value& value) {
+    if constexpr (std::is_same_v<Value, Pixels>) change(value);
   });
   for (FieldTexture& input : node.inputs) input.texture = withPixels(input.texture, change);
   return node;

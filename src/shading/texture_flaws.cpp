@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "shading/textures/formula.h"
+#include "shading/textures/image_map.h"
+
 namespace trace {
 namespace {
 
@@ -34,9 +37,9 @@ std::vector<std::string> flawsOf(const TextureNode& node) {
   const Vec3& scale = node.placement.scale;
   if (scale.x == 0 || scale.y == 0 || scale.z == 0)
     flaws.push_back("the scale of a texture has a 0, so the texture is placed as without one");
-  if (const auto* map = std::get_if<ImageMap>(&node.model); map && map->file.file.empty())
+  if (const auto* map = node.model.as<ImageMap>(); map && map->file.file.empty())
     flaws.push_back("image: expected a file, as in image { file = \"wood.png\"; }: it is black");
-  if (const auto* formula = std::get_if<Formula>(&node.model)) addFlaws(*formula, flaws);
+  if (const auto* formula = node.model.as<Formula>()) addFlaws(*formula, flaws);
   return flaws;
 }
 

@@ -1,4 +1,4 @@
-// What is wrong with a texture that can be had all the same.
+// Flaws of a texture that can be used all the same.
 #pragma once
 
 #include <string>

@@ -12,12 +12,12 @@ namespace {
 
 using Complex = std::complex<Real>;
 
-/// What is the same for all wavelengths.
+/// Terms that are the same for all wavelengths.
 struct Faces {
   bool total = false;
   Real front[2],
       back[2];  ///< amplitudes that the faces mirror, of light across the plane of incidence and in it
-  Real turn[2] = {0, 0};  ///< of the phase, at the back, in radians
+  Real turn[2] = {0, 0};  ///< change of the phase, at the back, in radians
   Real path = 0;          ///< how much longer the way through the film is, in nanometres
 
   Faces(const ThinFilm& film, Real cosine) {
@@ -71,7 +71,7 @@ struct Faces {
   Real inFilm_ = 0;  ///< the cosine there
 };
 
-/// What is left of a wave over all wavelengths, by how much longer the way of one light is than that of the
+/// The mean of a wave over all wavelengths, by how much longer the way of one light is than that of the
 /// other: the mean of the cosine or sine of 2 pi path / wavelength, weighed by the wavelength's colour. The
 /// weights of each channel sum to 1.
 class Coherence {

@@ -9,7 +9,6 @@
 #include <filesystem>
 #include <utility>
 
-#include "image/codec.h"
 #include "studio/dialogs.h"
 #include "studio/landmarks.h"
 #include "studio/panels.h"
@@ -27,13 +26,6 @@ bool hasPicture(const Studio& studio) { return studio.workspace.render.session()
 bool hasReference(const Studio& studio) { return studio.workspace.reference().has_value(); }
 bool renders(const Studio& studio) { return const_cast<Studio&>(studio).workspace.render.state().working(); }
 
-std::vector<std::string> pictureSuffixes() {
-  std::vector<std::string> suffixes;
-  for (const PictureFormat& format : pictureFormats())
-    suffixes.insert(suffixes.end(), format.suffixes.begin(), format.suffixes.end());
-  return suffixes;
-}
-
 std::vector<std::string> sceneSuffixes() {
   std::vector<std::string> suffixes;
   for (const SceneFormat& format : sceneFormats())
@@ -49,12 +41,13 @@ void openScene(Studio& studio) {
 void openReference(Studio& studio) {
   const std::string near = studio.workspace.referenceFile().empty() ? studio.workspace.document.file()
                                                                     : studio.workspace.referenceFile();
-  studio.dialog.open("Open a picture to compare with", FileDialog::Purpose::read, near, pictureSuffixes(),
+  studio.dialog.open("Open a picture to compare with", FileDialog::Purpose::read, near,
+                     pictureSuffixes(FileDialog::Purpose::read),
                      [&studio](const std::string& file) { studio.workspace.openReference(file); });
 }
 void exportPicture(Studio& studio) {
   studio.dialog.open("Export the picture", FileDialog::Purpose::write, studio.workspace.defaultPictureFile(),
-                     pictureSuffixes(),
+                     pictureSuffixes(FileDialog::Purpose::write),
                      [&studio](const std::string& file) { studio.workspace.savePicture(file); });
 }
 void saveSceneAs(Studio& studio) { saveSceneAsAnd(studio, nullptr); }
@@ -97,7 +90,7 @@ constexpr std::array kActions{
            canDelete, nullptr},
     Action{"Render", "Render", kF5, false, false, "render the scene as it is now",
            [](Studio& s) { s.workspace.startRender(); }, hasScene, nullptr},
-    Action{"Render", "Stop", kEscape, false, false, "stop; what is done stays",
+    Action{"Render", "Stop", kEscape, false, false, "stop; finished parts stay",
            [](Studio& s) { s.workspace.render.stop(); }, renders, nullptr},
     Action{"Render", "Render after every change", 0, false, false, "the picture follows what you do",
            [](Studio& s) { s.workspace.automatic = !s.workspace.automatic; }, always,
@@ -205,7 +198,8 @@ void menuTooltip(const char* help) {
 void chooseFile(Studio& studio, const Option& option) {
   const std::string name(option.name), now = option.get(studio.workspace.chosenSettings());
   const std::string near = now == "none" ? studio.workspace.document.file() : now;
-  studio.dialog.open("Choose the " + name, FileDialog::Purpose::read, near, pictureSuffixes(),
+  studio.dialog.open("Choose the " + name, FileDialog::Purpose::read, near,
+                     pictureSuffixes(FileDialog::Purpose::read),
                      [&studio, name](const std::string& file) { studio.workspace.choose(name, file); });
 }
 

@@ -11,7 +11,7 @@ namespace trace::studio {
 struct Action {
   const char* menu;  ///< the menu it stands in
   const char* name;
-  int key;  ///< of a KeyPress; 0 for none
+  int key;  ///< key of a KeyPress; 0 for none
   bool control, shift;
   const char* help;  ///< one sentence, no full stop
   void (*run)(Studio&);

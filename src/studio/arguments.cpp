@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "app/studio_flags.h"
 #include "base/error.h"
 #include "scene/short_flags.h"
 #include "studio/script.h"
@@ -12,7 +13,7 @@ namespace trace::studio {
 
 namespace {
 
-/// What the renderer's other flags do is in the menus.
+/// The functions of the renderer's other flags are in the menus.
 const ShortFlag& shortFlag(char letter) {
   std::string known;
   for (const ShortFlag& flag : shortFlags()) {
@@ -80,7 +81,7 @@ class Parser {
   }
 
   void takeValue(const std::string& name, const std::optional<std::string>& given) {
-    const bool ours = name == "script" || name == "reference" || name == "window" || name == "allow-read";
+    const bool ours = isStudioValue(name);
     if (!ours) findOption(name);  // one that is unknown is told before its value lacks
     const std::string value = given ? *given : valueAfter("--" + name);
     if (!ours)
@@ -138,23 +139,21 @@ class Parser {
 Arguments parse(const std::vector<std::string>& words) { return Parser(words).parse(); }
 
 std::string helpText() {
-  return "usage: ray-studio [SCENE] [options]\n\n"
-         "Opens a window that renders the scene, changes it and shows the rays of any pixel.\n\n"
-         "  --NAME VALUE              any option of \"ray --help all\", over the scene's own: --width 600\n"
-         "  -w 600, -r 5, -a ...      the short ones of \"ray --help all\"; options hold for every scene "
-         "that\n"
-         "                            is opened in this window\n"
-         "  --reference PICTURE       a picture to compare with\n"
-         "  --window WIDTHxHEIGHT     size of the window; 1280x800 at first, then as it was left\n"
-         "  --allow-read DIR          also let scenes read the files below this folder\n"
-         "  --script FILE             do what the file says, one command a line, then close the window\n"
-         "  -h, --help                this text\n"
-         "  --version                 print the version\n\n"
-         "Commands of a script:\n" +
-         scriptHelp() +
+  std::string text =
+      "usage: ray-studio [SCENE] [options]\n\n"
+      "Opens a window that renders the scene, changes it and shows the rays of any pixel.\n\n"
+      "  --NAME VALUE              any option of \"ray --help all\", over the scene's own: --width 600\n"
+      "  -w 600, -r 5, -a ...      the short ones of \"ray --help all\"; options hold for every scene that\n"
+      "                            is opened in this window\n";
+  for (const StudioFlag& flag : kStudioFlags) {
+    std::string left = flag.letter ? std::string("  -") + flag.letter + ", --" : "  --";
+    left += std::string(flag.name) + (flag.value.empty() ? "" : " ") + std::string(flag.value);
+    left.resize(std::max<std::size_t>(left.size() + 2, 28), ' ');
+    text += left + std::string(flag.help) + "\n";
+  }
+  return text + "\nCommands of a script:\n" + scriptHelp() +
          "\nWhat it remembers lies in $XDG_CONFIG_HOME/trace or ~/.config/trace; with --script nothing is "
-         "read or "
-         "kept.\n";
+         "read or stored.\n";
 }
 
 }  // namespace trace::studio

@@ -1,4 +1,4 @@
-// What ray-studio was started with.
+// The command line of ray-studio.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct Arguments {
   std::string reference;               ///< --reference; may be empty
   std::string script;                  ///< --script; may be empty
   int width = 0, height = 0;           ///< --window; 0: as it was last
-  std::vector<Choice> choices;         ///< of options; they hold for every scene that is opened
+  std::vector<Choice> choices;         ///< choices of options; they hold for every scene that is opened
   std::vector<std::string> allowRead;  ///< --allow-read: folders that scenes may read besides their own
   bool help = false, version = false;
 };

@@ -61,14 +61,14 @@ void drawChain(Studio& studio, const TracedPixel&) {
   ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(18));
   ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthFixed, characters(6));
   ImGui::TableSetupColumn("made", ImGuiTableColumnFlags_WidthStretch);
-  columnHeads(
-      {"its number in the chain",
-       "each of the path's numbers changes a little, or all are thrown anew; or how the path is changed "
-       "place by place",
-       "to which the offered path brings most of its light", "red, green and blue of what it brings there",
-       "how bright it is to the chain: the luminance of all that it brings, to other pixels too",
-       "whether the move was made, and its chance: how bright the path is beside the one where the chain "
-       "was"});
+  columnHeads({"its number in the chain",
+               "small step: each random number changes a little; large step: all are replaced; or the "
+               "mutation of vertices",
+               "to which the offered path brings most of its light",
+               "red, green and blue of its contribution there",
+               "how bright it is to the chain: the luminance of all that it brings, to other pixels too",
+               "whether the move was accepted, and its acceptance probability: the brightness relative to "
+               "the current path"});
   if (std::exchange(view.revealMove, false)) {
     const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
     ImGui::SetScrollY(

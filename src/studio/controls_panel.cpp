@@ -215,7 +215,7 @@ void row(Studio& studio, const Option& option, const Settings& defaults, const S
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - resetWidth);
     reset = ImGui::Button("x", {resetWidth, 0});
     landmark("reset " + name);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to what the file and the command line say");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to the value of the file and the command line");
   }
   ImGui::PopID();
   if (reset) return studio.workspace.reset(name);

@@ -73,7 +73,8 @@ void drawAbout(Studio& studio) {
   if (!ImGui::BeginPopupModal(kAboutTitle, &open, ImGuiWindowFlags_AlwaysAutoResize)) return;
   closeOnEscape(studio);
   ImGui::TextUnformatted((versionText() + ": the ray tracer you can see inside").c_str());
-  ImGui::TextDisabled("Made with Dear ImGui, GLFW, OpenGL, stb and OpenEXR. MIT licence.");
+  ImGui::TextDisabled(
+      "Made with Dear ImGui, GLFW, OpenGL, stb, OpenEXR,\nlibwebp, Draco and meshoptimizer. MIT licence.");
   ImGui::EndPopup();
 }
 
@@ -83,7 +84,7 @@ void drawLeaving(Studio& studio) {
   if (studio.leaving && !ImGui::IsPopupOpen(kLeavingTitle)) ImGui::OpenPopup(kLeavingTitle);
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
   if (!ImGui::BeginPopupModal(kLeavingTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-  ImGui::TextUnformatted(studio.workspace.document.edited() ? "What was changed is not in a file yet."
+  ImGui::TextUnformatted(studio.workspace.document.edited() ? "There are unsaved changes."
                                                             : "The scene's file is no longer on the disk.");
   const ImVec2 size{characters(16), 0};
   const auto close = [&] {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "app/edits.h"
-#include "image/codec.h"
+#include "studio/file_dialog.h"
 #include "studio/landmarks.h"
 #include "studio/number_field.h"
 #include "studio/theme.h"
@@ -38,12 +38,12 @@ struct FileChoice {
   std::string name{};
 };
 FileChoice& fileChoice() {
-  static FileChoice choice;  // of the one dialog that the window has
+  static FileChoice choice;  // choice of the one dialog that the window has
   return choice;
 }
 
 std::string& outerFields() {
-  static std::string names;  // of the one table that is drawn now
+  static std::string names;  // names of the one table that is drawn now
   return names;
 }
 std::string& outerNames() {
@@ -129,7 +129,7 @@ bool editValue(const FieldFacts&, Heights& value) { return showFile(value.file);
 
 bool editValue(const FieldFacts& facts, Pixels& value) {
   std::string file = value.file;
-  if (!editFileName(facts, file, pictureSuffixes())) return false;
+  if (!editFileName(facts, file, pictureSuffixes(FileDialog::Purpose::read))) return false;
   value = {std::move(file), nullptr, {}};
   return true;
 }

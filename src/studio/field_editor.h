@@ -17,13 +17,13 @@
 #include "geometry/shapes/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
+#include "shading/formula_text.h"
 #include "shading/lights/photometry.h"
-#include "shading/textures/formula.h"
-#include "shading/textures/image_map.h"
+#include "shading/pixels.h"
 
 namespace trace::studio {
 
-/// What a widget needs to know of the field.
+/// The description of the field for a widget.
 struct FieldFacts {
   std::string_view unit;
   double least = -kNoLimit, most = kNoLimit;
@@ -123,7 +123,7 @@ template <class Struct, class Changed>
 void editFields(Struct& target, Changed&& changed) {
   forEachField<Struct>([&](const auto& field) { editField(field, target.*field.member, changed); });
 }
-/// The same of a shape.
+/// Edits the fields of a shape.
 template <class Changed>
 void editFields(Shape& shape, Changed&& changed) {
   editEachField(shape, [&](const AnyField& field, auto& value) { editField(field, value, changed); });
@@ -131,7 +131,7 @@ void editFields(Shape& shape, Changed&& changed) {
 
 // ------------------------------------------------------------------------------------------------------
 
-/// What a person did to a list.
+/// An edit of a list.
 struct ListEdit {
   enum class What { nothing, remove, repeat } what = What::nothing;
   std::size_t index = 0;

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "image/codec.h"
 #include "studio/landmarks.h"
 #include "studio/theme.h"
 
@@ -133,6 +134,14 @@ void FileDialog::draw(bool escape, bool entered) {
   else if (entered && !typing && !named.empty() && (!focused_.empty() || !ImGui::GetIO().NavVisible))
     choose(std::string(named));
   ImGui::EndPopup();
+}
+
+std::vector<std::string> pictureSuffixes(FileDialog::Purpose purpose) {
+  std::vector<std::string> suffixes;
+  for (const PictureFormat& format : pictureFormats())
+    if (purpose == FileDialog::Purpose::read || format.encode)
+      suffixes.insert(suffixes.end(), format.suffixes.begin(), format.suffixes.end());
+  return suffixes;
 }
 
 }  // namespace trace::studio

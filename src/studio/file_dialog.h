@@ -35,4 +35,7 @@ class FileDialog {
   std::function<void(const std::string&)> chosen_;
 };
 
+/// The suffixes of pictures that can be read, or written.
+std::vector<std::string> pictureSuffixes(FileDialog::Purpose purpose);
+
 }  // namespace trace::studio

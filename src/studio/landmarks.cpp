@@ -12,7 +12,7 @@ struct Kept {
 };
 
 Kept& kept() {
-  static Kept all;  // of the one window that a program has, as Dear ImGui's own context
+  static Kept all;  // landmarks of the one window that a program has, as Dear ImGui's own context
   return all;
 }
 

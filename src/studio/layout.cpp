@@ -76,9 +76,9 @@ void drawDock(Studio& studio, Dock dock, const char* name, ImVec2 position, ImVe
   ImGui::End();
 }
 
-/// What a bar changes.
+/// The quantity that a bar changes.
 struct Shared {
-  float& share;         ///< of the whole, that its dock may have
+  float& share;         ///< share of the whole that its dock may have
   float pixels, whole;  ///< that the dock has now, and the window
   float most;           ///< the share that leaves room for the other docks, which stay as they are
   float sign = 1;       ///< -1 where the dock lies beyond the bar

@@ -21,19 +21,12 @@
 namespace trace::studio {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 800;   // of the window, at first, on a plain monitor
-constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at what goes on in the background
+constexpr int kWidth = 1280, kHeight = 800;   // width and height of the window, at first, on a plain monitor
+constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at what continues in the background
 
 const char* variable(const char* name) { return std::getenv(name); }
 
-bool isPicture(const std::string& file) {
-  try {
-    pictureFormatFor(file);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
+bool isPicture(const std::string& file) { return pictureFormatNamed(file) != nullptr; }
 
 void openDropped(Studio& studio, const std::string& file) {
   if (isPicture(file))
@@ -42,7 +35,7 @@ void openDropped(Studio& studio, const std::string& file) {
     studio.leave([&studio, file] { studio.workspace.open(file); });
 }
 
-/// What runs in the background, or a script, brings news without an event.
+/// Tasks in the background, and scripts, bring news without an event.
 bool isBusy(Studio& studio) {
   Workspace& workspace = studio.workspace;
   return workspace.render.state().working() || workspace.reading() || workspace.saving() ||

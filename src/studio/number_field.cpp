@@ -25,14 +25,14 @@ std::vector<std::string>& remarks() {
   return all;
 }
 
-/// What a person made of a value.
+/// An edit of a value.
 template <class Value>
 struct Settled {
   std::optional<Value> value{};
   bool typed = false;
 };
 
-/// What the widget made of the value: `shown`, if it says `changed`.
+/// The new value of the widget: `shown`, if it says `changed`.
 template <class Value>
 Settled<Value> settle(ImGuiID id, const Value& shown, bool changed, bool typing) {
   static TypedValue<Value> typed;
@@ -92,7 +92,7 @@ std::optional<double> numberIn(const std::string& typed, const NumberLook& look,
 
 /// A slider that takes text, in place of Dear ImGui's own field.
 Settled<std::string> typeNumber(const char* label, ImGuiID id) {
-  constexpr int kMostCharacters = 32;  // as Dear ImGui's own field, which begins what goes on here
+  constexpr int kMostCharacters = 32;  // as Dear ImGui's own field, which begins what continues here
   static ImGuiID owner = 0;
   static char text[kMostCharacters];
   const char* before = ImGui::GetCurrentContext()->InputTextState.InitialTextA.Data;

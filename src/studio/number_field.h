@@ -1,5 +1,5 @@
 // Numbers and text that a person drags or types. What is dragged shows at once; what is typed counts on
-// Enter, or when the field is left, and Esc takes it back (app/typed_value.h).
+// Enter, or when the field is left, and Esc restores the old one (app/typed_value.h).
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 namespace trace::studio {
 
 struct NumberLook {
-  double least, most;        ///< of what is dragged; of what is typed too, if it is `clamped`
-  std::string format;        ///< of printf for double: "%.0f" and so on for whole numbers
+  double least, most;        ///< bounds of dragging; of typing too, if it is `clamped`
+  std::string format;        ///< format of printf for double: "%.0f" and so on for whole numbers
   float speed = 0;           ///< for each pixel that it is dragged; 0: a slider
   bool logarithmic = false;  ///< the slider
   bool clamped = true;
   std::string_view name{};  ///< for remarks
 };
 
-/// What stands after the number: " rays", of one " ray"; "" without a unit.
+/// The text after the number: " rays", of one " ray"; "" without a unit.
 std::string unitAfter(std::string_view unit, double number);
 
 // Each draws the widget, as wide as ImGui::SetNextItemWidth() says, and returns true when the value has
@@ -26,7 +26,7 @@ bool editNumber(const char* id, double& value, const NumberLook& look);
 bool editNumber(const char* id, int& value, const NumberLook& look);
 /// Several in a row, over the rest of the line.
 bool editNumbersInRow(double* values, int count, const NumberLook& look);
-/// What was typed and not taken as it is, since the last call: `depth: expected 0 to 100, found 500`.
+/// Typed text that was not taken as it is, since the last call: `depth: expected 0 to 100, found 500`.
 std::vector<std::string> takeRemarks();
 /// One more.
 void remarkOn(std::string what);

@@ -41,7 +41,7 @@ void editTransform(Studio& studio, Affine& m, const std::string& name, const Cha
     studio.refuse(what + " was not taken: its matrix would make the object flat, or not finite");
   };
   const double size = std::max({length(m.row[0]), length(m.row[1]), length(m.row[2]), 1e-9});
-  if (editThree("move", "where the object's origin lies in what it belongs to", m.offset,
+  if (editThree("move", "position of the object's origin in its parent", m.offset,
                 {-kAny, kAny, "%.4g", static_cast<float>(size / 50)}))
     changed("move " + name);
   Vec3 degrees;
@@ -161,14 +161,14 @@ void editPlacedShape(Studio& studio, PlacedShape placed, const Changed& changed)
   const std::string name = nameOf(placed.name, placed.shape);
   const FieldsWithin within(name + ":");
   if (beginFields("placed")) {
-    fieldName("name", "what messages and the panels call it");
+    fieldName("name", "its name in messages and panels");
     if (editValue({}, placed.name)) changed("name");
     editMaterialOf(studio, name, placed.material, changed);
     editFields(placed.shape, [&](std::string_view key) { changed(name + ": " + std::string(key)); });
     endFields();
   }
   if (placed.shape.type().ofObjects) {
-    for (const AnyField& field : fieldsOf(placed.shape))
+    for (const AnyField& field : placed.shape.fields())
       if (std::holds_alternative<Operands*>(field.value))
         ImGui::TextDisabled("%s", std::string(field.help).c_str());
     editOperands(studio, placed.shape, placed.material, changed);

@@ -11,7 +11,7 @@ namespace trace::studio {
 
 struct Studio;
 
-/// What is edited: copies of an object's members, or of an operand's.
+/// The edited data: copies of an object's members, or of an operand's.
 struct PlacedShape {
   std::string& name;
   Shape& shape;

@@ -22,7 +22,7 @@ void drawBar(Studio& studio) {
   const bool working = studio.workspace.render.state().working();
   if (!working && button("Render", "render the scene as it is now (F5)", open))
     studio.workspace.startRender();
-  if (working && button(" Stop ", "stop; what is done stays (Esc)", true)) studio.workspace.render.stop();
+  if (working && button(" Stop ", "stop; finished parts stay (Esc)", true)) studio.workspace.render.stop();
   const auto runAction = [&](const char* name) {
     for (const Action& action : actions())
       if (std::string_view(action.name) == name) action.run(studio);
@@ -52,7 +52,7 @@ void drawBar(Studio& studio) {
   if (alone) {
     if (ImGui::Button("All ways", {characters(17), 0})) alone.reset();
     landmark("all ways");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("the whole picture again, not one way to make its paths");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to the whole picture, from a single strategy");
     return;
   }
   int plane = static_cast<int>(view.plane);

@@ -15,7 +15,7 @@ namespace trace::studio {
 namespace {
 
 constexpr double kLeastInterval = 0.1;  // seconds between two looks at a render
-constexpr double kMostShare = 0.15;     // of the time may go into looking
+constexpr double kMostShare = 0.15;     // share of the time that may go into looking
 constexpr float kGap = 6;               // between two pictures side by side
 
 /// How far the render has come, and the plane that is looked at.

@@ -1,4 +1,4 @@
-// What the panel Picture has around the picture.
+// Parts of the panel Picture around the picture.
 #pragma once
 
 #include <imgui.h>

@@ -24,10 +24,10 @@ struct PictureView {
   double centreX = 0.5, centreY = 0.5;  ///< what is in the middle, in shares of the picture
   float exposure = 0;                   ///< stops
   float swipe = 0.5f;                   ///< share that shows the picture
-  float magnify = 8;                    ///< of the difference
+  float magnify = 8;                    ///< magnify of the difference
   PixelChoice pixel;                    ///< that was clicked
 
-  // What the textures show.
+  // The contents of the textures.
   Texture pictureTexture, referenceTexture, differenceTexture;
   Picture shown;   ///< linear colours of the render
   Picture levels;  ///< what the tone makes of them, whose levels pictureTexture shows
@@ -43,8 +43,8 @@ struct PictureView {
   Texture planeTexture;     ///< where another plane than the picture is seen
   std::string planeLegend;  ///< what its colours mean
   FilmPlane planeShown = FilmPlane::picture;
-  Convergence convergence;    ///< of what is shown
-  std::vector<float> noise;   ///< levels, one for each look at the render that goes on
+  Convergence convergence;    ///< convergence of the shown picture
+  std::vector<float> noise;   ///< levels, one for each look at the render that continues
   std::uint64_t noiseOf = 0;  ///< the render's number
 
   /// Takes the pixel as if it were clicked, and brings it into view.

@@ -32,7 +32,7 @@ void refreshTextures(WayPictures& ways, const PyramidView& view, Rounding roundi
   }
 }
 
-/// Of that way, if it is as it should be now.
+/// The picture of that strategy, if it is as it should be now.
 const Texture* textureOf(const WayPictures& ways, const Way& way) {
   if (!ways.maker.current()) return nullptr;
   const std::vector<WayPicture>& pictures = ways.maker.pyramid().pictures;
@@ -48,12 +48,12 @@ std::string placesOf(const Way& way) {
          std::to_string(way.camera) + " from the camera's (t)";
 }
 
-/// What the pictures are, or why they are not there.
+/// A line that says what the pictures are, or why they are not there.
 std::string standing(const Studio& studio) {
   const PyramidView& view = studio.rays.pyramid;
   if (view.waits) return "They are made when the picture is finished.";
   if (!view.all.maker.current()) return "They are being made.";
-  if (view.unweighted) return "Each as if it were the only way: they do not add up.";
+  if (view.unweighted) return "Each as if it were the only strategy: they do not add up.";
   const Pyramid& pyramid = view.all.maker.pyramid();
   constexpr double kLeast = 1e-6;  // what sums of this many pixels are exact to
   if (pyramid.longer < kLeast) return "No longer path brings light: these add up to the picture.";
@@ -77,8 +77,8 @@ void pyramidCell(Studio& studio, const Way& way, const Texture& texture, ImVec2 
   if (shown) list.AddRect(at, end, ImGui::GetColorU32(studio.palette().accent), 0, 0, 2);
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("%s%s\nclick: %s", placesOf(way).c_str(),
-                      current ? "" : "\nas it was: it is being made anew",
-                      shown ? "the whole picture again" : "this way alone in place of the picture");
+                      current ? "" : "\nfrom before the change: it is being rendered again",
+                      shown ? "the whole picture again" : "this strategy alone in place of the picture");
   const ImVec2 text = ImGui::CalcTextSize(name.c_str());
   if (size.x < 1.5f * text.x || size.y < 2 * text.y) return;  // the picture matters more
   list.AddRectFilled(at, {at.x + text.x + 6, at.y + text.y + 2}, kPlate);
@@ -148,10 +148,10 @@ void drawPyramid(Studio& studio, const TracedPixel&) {
   ImGui::Checkbox("unweighted", &view.unweighted);
   landmark("pyramid unweighted");
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("each way alone, as if no other found such paths; else with what it counts");
+    ImGui::SetTooltip("each strategy alone at full weight; else with its MIS weight");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  editNumber("##places", view.places, {kLeastPlaces, kMostPlaces, "paths of up to %.0f places"});
+  editNumber("##places", view.places, {kLeastPlaces, kMostPlaces, "paths of up to %.0f vertices"});
   const std::string& problem = view.all.maker.pyramid().problem;
   ImGui::PushStyleColor(ImGuiCol_Text, problem.empty() ? studio.palette().muted : studio.palette().error);
   cutText(problem.empty() ? standing(studio) : problem);

@@ -1,4 +1,4 @@
-// What the tables of the panel Rays say of a ray in a row.
+// The texts of a ray's row in the tables of the panel Rays.
 #pragma once
 
 #include <imgui.h>

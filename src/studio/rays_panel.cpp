@@ -166,7 +166,7 @@ void updatePixel(Studio& studio) {
   view.boxesOf = -1;
 }
 
-/// What the light image brings the pixel beside its rays; "" where there is none.
+/// The contribution of the light image to the pixel besides its rays; "" where there is none.
 std::string lightImageAt(const TracedPixel& pixel) {
   const Film& film = pixel.session->film();
   if (!film.takesSplats() || rowOf(pixel.session->settings()).byChains) return "";
@@ -174,7 +174,7 @@ std::string lightImageAt(const TracedPixel& pixel) {
   return "The light image (t = 1) adds " + channels(light) + " to this pixel.";
 }
 
-/// What the pixel's rays leave unsaid, or which move of a chain they belong to.
+/// A remark on what the pixel's rays do not explain, or which move of a chain they belong to.
 std::string noteOn(const RaysView& view, const TracedPixel& pixel) {
   if (!view.chains.offered()) {
     std::string note;

@@ -30,14 +30,14 @@ struct PyramidView {
   bool open = false;   ///< the tab was drawn in the last frame
   bool waits = false;  ///< for the picture, which comes first
   bool unweighted = false;
-  int places = 5;              ///< of the longest paths
+  int places = 5;              ///< places of the longest paths
   std::optional<Way> alone{};  ///< nothing of the document changes for it
   double exposure = 0;         ///< with which the pictures are shown
   Development development{};
   bool busy() const { return all.maker.busy() || one.maker.busy(); }
 };
 
-/// What is seen in the panel Picture in place of the picture.
+/// The view in the panel Picture in place of the picture.
 struct InPlaceOfPicture {
   const Texture* texture = nullptr;  ///< null: the picture is seen all the same
   std::string caption{};             ///< "" if nothing is to be said of it
@@ -47,8 +47,8 @@ enum class Surfaces { shaded, wireframe, none };
 
 struct RaysView {
   int sample = 0;        ///< that is asked for
-  std::size_t rays = 0;  ///< of the pixel that is shown
-  int x = -1, y = -1;    ///< of that pixel
+  std::size_t rays = 0;  ///< rays of the pixel that is shown
+  int x = -1, y = -1;    ///< x and y of that pixel
   int clickedX = -1, clickedY = -1;
   int selected = -1;         ///< ray of the pixel; -1: none
   int hovered = -1;          ///< under the cursor, in space or in the table, in this frame
@@ -57,17 +57,17 @@ struct RaysView {
   int step = -1;             ///< rays shown in the order of tracing; -1: all
   std::vector<char> closed;  ///< nodes whose children the table hides
 
-  std::vector<VisitedBox> boxes;  ///< of the hierarchies, by the selected ray
+  std::vector<VisitedBox> boxes;  ///< boxes of the hierarchies, by the selected ray
   int boxesOf = -1;               ///< the node that they are of
   int box = 0;                    ///< how many are shown
 
-  int way = -1;              ///< of the ways that paths from both ends were joined in; -1: none is chosen
+  int way = -1;              ///< index of the chosen strategy; -1: none is chosen
   std::vector<int> wayRays;  ///< its rays, drawn before all others
   bool revealWay = false;    ///< the table scrolls to it
 
   PyramidView pyramid;
 
-  ChainInspector chains;    ///< of `mlt`: a chain that comes by the pixel
+  ChainInspector chains;    ///< chains of `mlt`: a chain that comes by the pixel
   int chainMove = -1;       ///< whose rays are asked for; -1: the one that came nearest to the pixel
   bool revealMove = false;  ///< the table scrolls to it
 
@@ -75,17 +75,17 @@ struct RaysView {
   std::unique_ptr<SceneDrawer> drawer;
   SceneModel model;                                                          ///< that is drawn
   std::shared_ptr<const Scene> modelScene;                                   ///< whose model was asked for
-  std::shared_ptr<SceneModeler> modeler = std::make_shared<SceneModeler>();  ///< of modelTask alone
+  std::shared_ptr<SceneModeler> modeler = std::make_shared<SceneModeler>();  ///< used by modelTask alone
   BackgroundTask<SceneModel> modelTask;
   std::string orbitFile;  ///< the scene file that `orbit` was set for
   OrbitCamera orbit;
   Real size = 1;  ///< radius of what is looked at: of lights, normals and rays that leave the scene
   bool fromCamera = false;
   std::weak_ptr<const Session> wallsOf;  ///< for which the walls were found
-  std::vector<std::uint32_t> walls;      ///< of the room that the scene's camera stands in; see app/room.h
-  bool roomOpened = true;                ///< those of them that hide its inside are left out
+  std::vector<std::uint32_t> walls;  ///< walls of the room that the scene's camera stands in; see app/room.h
+  bool roomOpened = true;            ///< those of them that hide its inside are left out
   Surfaces surfaces = Surfaces::shaded;
-  float opacity = 1;  ///< of surfaces
+  float opacity = 1;  ///< opacity of surfaces
   bool boundsShown = false, normalsShown = false, lightsShown = true, cameraShown = true, axesShown = false;
   bool pictureShown = true, hitNormalsShown = true, pinnedShown = true, hierarchyShown = true;
   std::array<bool, kRayLooks.size()> lookHidden{};

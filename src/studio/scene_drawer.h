@@ -38,7 +38,7 @@ struct DrawSurface {
 struct DrawPicture {
   std::array<Point3, 4> corners;
   unsigned texture;
-  std::uint64_t version;  ///< of what the texture shows
+  std::uint64_t version;  ///< version of the texture's contents
   float opacity;
   bool operator==(const DrawPicture&) const = default;
 };

@@ -207,7 +207,7 @@ void editMaterial(Studio& studio) {
   const Scene& scene = studio.workspace.document.scene();
   Material material = scene.materials[index];
   const std::string name = nameOf(material, index);
-  match(material.model, [&](const auto& model) { heading(studio, name, model.kHelp, {}); });
+  heading(studio, name, material.model.type().help, {});
   const std::size_t users = usersOf(scene, static_cast<std::uint32_t>(index));
   ImGui::TextDisabled("used by %zu %s", users, users == 1 ? "object" : "objects");
   landmark("used by " + std::to_string(users));
@@ -216,26 +216,24 @@ void editMaterial(Studio& studio) {
   };
   if (!beginFields("material", true)) return;
   const FieldsWithin within(name + ":");
-  fieldName("name", "what the panels call it");
+  fieldName("name", "its name in the panels");
   if (editValue({}, material.name)) changed("name");
   const std::vector<std::string_view> models = modelKeywords();
-  std::size_t chosen = material.model.index();
+  std::size_t chosen = material.model.type().index;
   fieldName("model", "how the surface scatters light; fields that both models have keep their values");
   ImGui::PushID("model");
   const bool otherModel = editChoice(models.data(), models.size(), chosen);
   ImGui::PopID();
   if (otherModel) {
-    material = withModel(std::move(material), *modelCalled(models[chosen]));
+    material = withModel(std::move(material), MaterialModel(modelTypes()[chosen]));
     changed(name + ": model " + std::string(models[chosen]));
   }
   std::vector<FieldTexture>& textures = material.textures;
-  match(material.model, [&]<class Model>(Model& model) {
-    const Model before = model;
-    forEachField<Model>([&](const auto& f) {
-      editTexturedField(f, model.*f.member, textures, [&](const std::string& what) {
-        followEdit(model, before, f.keyword);
-        changed(name + ": " + what);
-      });
+  const MaterialModel before = material.model;
+  editEachField(material.model, [&](const ModelField& f, auto& value) {
+    editTexturedField(f, value, textures, [&](const std::string& what) {
+      if (Phong* phong = material.model.edit<Phong>()) followEdit(*phong, *before.as<Phong>(), f.keyword);
+      changed(name + ": " + what);
     });
   });
   forEachField<Material>([&](const auto& f) {
@@ -264,7 +262,7 @@ void editOnly(Studio& studio, Thing Scene::*member) {
         return studio.refuse("camera: " + std::string(key) + " was not taken: the camera would see nothing");
       }
       if (lookAt && key == "viewdir")
-        studio.refuse("camera: viewdir is said in place of the file's look_at from now on");
+        studio.refuse("camera: viewdir replaces the file's look_at from now on");
     }
     change(studio, name + ": " + std::string(key), [&](Scene& scene) { scene.*member = thing; });
   });

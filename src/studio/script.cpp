@@ -52,7 +52,7 @@ std::string joined(const std::vector<std::string>& words, std::size_t first = 0)
   return text;
 }
 
-/// What a landmark covers.
+/// The area that a landmark covers.
 Picture part(const Picture& all, const std::string& name) {
   const auto found = landmarks().find(name);
   if (found == landmarks().end()) throw Error(Fault::usage, "the window shows no \"" + name + "\"");
@@ -184,7 +184,7 @@ constexpr std::array kCommands{
             [](Studio& s, const Words& a) { s.picture.view = viewOf(a[0]); },
             [](const Words& a) { viewOf(a[0]); }},
     Command{"plane", "NUMBER", 1, 1,
-            "what is seen of the render: 0 picture, 1 samples, 2 noise, 3 change by denoise",
+            "the view of the render: 0 picture, 1 samples, 2 noise, 3 change by denoise",
             [](Studio& s, const Words& a) { s.picture.plane = planeOf(a[0]); },
             [](const Words& a) { planeOf(a[0]); }},
     Command{"samples", "NUMBER", 1, 1,
@@ -223,14 +223,14 @@ constexpr std::array kCommands{
               s.rays.selected = whole(a[0]);
             },
             checkNumbers},
-    Command{"way", "NUMBER", 1, 1, "select one of the ways in which paths from both ends were joined, from 0",
+    Command{"way", "NUMBER", 1, 1, "select one of the strategies that connected both paths, from 0",
             [](Studio& s, const Words& a) {
               chooseWay(s, whole(a[0]));
               if (s.rays.way < 0) throw Error(Fault::usage, "the pixel has no way " + a[0]);
             },
             checkNumbers},
     Command{"alone", "LIGHT CAMERA", 2, 2,
-            "show the pyramid's way with so many places from both ends alone; or all if it is",
+            "show the pyramid's strategy with these numbers of vertices alone; or all if it is",
             [](Studio& s, const Words& a) {
               std::optional<Way>& alone = s.rays.pyramid.alone;
               const Way way{whole(a[0]), whole(a[1])};
@@ -262,13 +262,13 @@ constexpr std::array kCommands{
             checkPicture},
     Command{"state", "FILE", 1, 1, "write in words what is chosen and where things are",
             [](Studio& s, const Words& a) { writeFile(a[0], state(s)); }, nullptr, 0},
-    Command{"say", "WORDS...", 1, 9, "write these words to standard output, for who waits there",
+    Command{"say", "WORDS...", 1, 9, "write these words to standard output, for a waiting program",
             [](Studio&, const Words& a) {
               std::printf("%s\n", joined(a).c_str());
               std::fflush(stdout);
             },
             nullptr, 0},
-    Command{"await", "FILE", 1, 1, "until somebody has made the file, and what they did is seen", nullptr,
+    Command{"await", "FILE", 1, 1, "until the file exists, and the events before it are handled", nullptr,
             nullptr, 3,
             [](Studio& s, const Words& a) { return std::filesystem::exists(a[0]) && s.window.quiet(); }},
 };

@@ -19,7 +19,7 @@ class Script {
   /// one began. False at the end. Throws Error with file and line if a command fails, and
   /// Error(Fault::limit) at the one that is being done when the time is over.
   bool step(Studio& studio);
-  /// What the script waits for needs no frame.
+  /// The script waits for something that needs no frame.
   bool waits() const { return waits_; }
 
  private:

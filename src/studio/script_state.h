@@ -1,4 +1,4 @@
-// What the window shows and what is chosen, in words: for scripts that test it.
+// The contents of the window and the selection, in words: for scripts that test it.
 #pragma once
 
 #include <string>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFiner = 2;        // pixels of a layer for one of the picture, each way, for smooth edges
 constexpr int kMostLayers = 16;  // what lies behind so many is not seen
-constexpr int kSolidUnit = 1, kBeforeUnit = 2;  // of textures
+constexpr int kSolidUnit = 1, kBeforeUnit = 2;  // units of textures
 
 /// One triangle over everything.
 constexpr const char* kOverVertex = R"(#version 330 core

@@ -1,4 +1,4 @@
-// What the panel Scene has selected, and what the menus and the keyboard do with it.
+// The selection of the panel Scene, and what the menus and the keyboard do with it.
 #pragma once
 
 #include <string>

@@ -150,11 +150,11 @@ void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, Pen& p
   }
 }
 
-/// What was counted at the place where a ray ended: each photon as it arrived, and the rim of their disk.
+/// The photons counted at the place where a ray ended: each photon as it arrived, and the rim of their disk.
 /// From far away they are enlarged about that place; the rim is dashed then.
 void addPhotons(const RayNode& node, const Color& colour, const Vec3& eye, Pen& pen) {
   constexpr int kRim = 48;       // corners
-  constexpr Real kLeast = 0.03;  // of the distance from which it is seen
+  constexpr Real kLeast = 0.03;  // relative to the distance from which it is seen
   if (!node.hit) return;
   const Vec3 &middle = node.hit->surface.point, &normal = node.hit->surface.normal;
   for (const Term& term : node.terms) {

@@ -132,7 +132,7 @@ Real distanceAhead(const Studio& studio, const CameraFrame& camera) {
   return std::clamp(distance, 0.01 * studio.rays.size, 100 * studio.rays.size);
 }
 
-/// What the mouse does with the view; it begins where the view from the camera is.
+/// The effect of the mouse on the view; it begins where the view from the camera is.
 void moveCamera(Studio& studio, const CameraFrame& camera, ImVec2 size) {
   RaysView& view = studio.rays;
   const ImGuiIO& io = ImGui::GetIO();
@@ -289,7 +289,7 @@ void drawSpace(Studio& studio) {
   const CameraFrame world = view.fromCamera ? fitted(camera, aspect) : view.orbit.frame(aspect);
   CameraFrame local = world;
   local.eye = (world.eye - view.model.origin) / view.model.scale;
-  // What matters is as far away as the target; the camera's view may begin inside something.
+  // The interesting part is as far away as the target; the camera's view may begin inside something.
   const Real near = (view.fromCamera ? view.size : view.orbit.distance()) / view.model.scale;
   const Matrix4 matrix = projection(local, near * 0.01, near * 100 + 4);
 

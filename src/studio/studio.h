@@ -47,7 +47,7 @@ struct Studio {
   std::string raysTab;     ///< a tab of the panel Rays to bring to the front
   std::string menuToOpen;  ///< by its name, for the keyboard
   FileDialog dialog;
-  std::vector<KeyPress> keys;  ///< of this frame
+  std::vector<KeyPress> keys;  ///< keys of this frame
   struct Keyboard {            ///< where it was at the end of the last frame
     unsigned item = 0, window = 0;
     std::array<float, 4> place{};  ///< in the window
@@ -99,10 +99,10 @@ struct Studio {
   }
 };
 
-/// What belonged to the scene before is forgotten when another is opened: the chosen pixel, the selection.
+/// The state of the scene before is dropped when another is opened: the chosen pixel, the selection.
 void followScene(Studio& studio);
 
-/// Esc leaves the keyboard where it was, and Tab goes on from there. Called before anything is drawn.
+/// Esc leaves the keyboard where it was, and Tab continues from there. Called before anything is drawn.
 void keepKeyboard(Studio& studio);
 /// Called when all is drawn.
 void noteKeyboard(Studio& studio);

@@ -34,7 +34,7 @@ bool patternButton(bool has) {
   return pressed;
 }
 
-/// What was chosen: the keyword of a kind, or "" for no texture.
+/// The choice: the keyword of a kind, or "" for no texture.
 std::optional<std::string> chosenKind(std::string_view now) {
   std::optional<std::string> chosen;
   if (ImGui::Selectable("plain value", now.empty())) chosen = "";
@@ -49,9 +49,7 @@ std::optional<std::string> chosenKind(std::string_view now) {
   return chosen;
 }
 
-std::string_view textureKeywordOf(const trace::Texture& texture) {
-  return match(texture->model, [](const auto& model) { return model.kKeyword; });
-}
+std::string_view textureKeywordOf(const trace::Texture& texture) { return texture->model.keyword(); }
 
 /// A row that says why the field counts for nothing now, in place of its value.
 template <class Field>
@@ -64,7 +62,7 @@ void idleField(const Field& field, const std::string& why) {
   landmark("idle");
 }
 
-/// What is wrong with it, over the whole width.
+/// A line with the errors of the texture, over the whole width.
 void showFlaws(const TextureNode& node) {
   for (const std::string& flaw : flawsOf(node)) {
     ImGui::TableNextRow();
@@ -90,14 +88,12 @@ void textureFields(const trace::Texture& texture,
     become(std::move(next), kind + " " + what);
   };
   showFlaws(node);
-  match(node.model, [&]<class Model>(Model& model) {
-    const Model before = model;
-    forEachField<Model>([&](const auto& f) {
-      if (const std::string why = whyIdle(node.model, f.keyword); !why.empty()) return idleField(f, why);
-      editTexturedField(f, model.*f.member, node.inputs, [&](const std::string& what) {
-        followEdit(model, before, f.keyword);
-        changed(what);
-      });
+  const TextureModel before = node.model;
+  editEachField(node.model, [&](const TextureField& f, auto& value) {
+    if (const std::string why = whyIdle(node.model, f.keyword); !why.empty()) return idleField(f, why);
+    editTexturedField(f, value, node.inputs, [&](const std::string& what) {
+      followEdit(node.model, before, f.keyword);
+      changed(what);
     });
   });
   editFields(node.placement, [&](std::string_view keyword) { changed(std::string(keyword)); });

@@ -7,7 +7,7 @@ namespace trace::studio {
 
 struct Theme {
   bool light = false;
-  float scale = 1;  ///< of the monitor, times what the user chose
+  float scale = 1;  ///< scale of the monitor, times what the user chose
 };
 
 /// Colours with a meaning.
@@ -15,7 +15,7 @@ struct Palette {
   ImVec4 accent, muted, changed, warning, error, good;
 };
 const Palette& palette(bool light);
-/// Of the theme that was set last.
+/// The scale of the theme that was set last.
 const Palette& palette();
 
 /// Sets style and fonts. Between frames; Window::fontsChanged() must follow.

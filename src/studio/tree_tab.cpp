@@ -21,9 +21,9 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
   ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, 0.27f);
   ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(9));
   ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.33f);
-  columnHeads({"its kind and the rays that it sent on", "the object, light or medium that it came to",
-               "the largest channel of what it brings to the pixel: its radiance times its weight there",
-               "why it ended, or how it goes on"});
+  columnHeads({"its kind and its secondary rays", "the object, light or medium that it came to",
+               "the largest channel of its contribution to the pixel: its radiance times its weight there",
+               "why it ended, or how it continues"});
   if (const auto found = std::find(rows.begin(), rows.end(), view.scrollTo); found != rows.end()) {
     const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
     const float top = static_cast<float>(found - rows.begin()) * height, room = ImGui::GetWindowHeight();

@@ -68,9 +68,9 @@ void drawWays(Studio& studio, const TracedPixel& pixel) {
   ImGui::TableSetupColumn("counts", ImGuiTableColumnFlags_WidthFixed, characters(7));
   ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(22));
   ImGui::TableSetupColumn("how", ImGuiTableColumnFlags_WidthStretch);
-  columnHeads({"places from the light's end, and from the camera's",
-               "its weight among all ways to find such a path: the more likely the way, the more it counts",
-               "red, green and blue of what it adds to the pixel", "how its two ends were joined"});
+  columnHeads({"vertices from the light, and from the camera",
+               "its MIS weight among all strategies for this path",
+               "red, green and blue of its contribution to the pixel", "how its two ends were joined"});
   int places = 0;
   for (int i = 0; i < static_cast<int>(pixel.ways.size()); ++i) {
     const int now = pixel.ways[static_cast<std::size_t>(i)].places();

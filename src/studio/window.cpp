@@ -22,14 +22,14 @@ namespace trace::studio {
 struct Window::State {
   GLFWwindow* window = nullptr;
   std::vector<std::string> dropped;
-  std::vector<KeyPress> keys;   // of this frame
+  std::vector<KeyPress> keys;   // keys of this frame
   InputQueue queue;             // what Dear ImGui, which sees one state in each frame, has not heard of yet
   bool happened = false;        // anything, since the last look
   double heard = 0, slack = 0;  // when events were asked for last, and how long they were not
-  double clock = 0;             // of Dear ImGui
+  double clock = 0;             // clock of Dear ImGui
   ImVec2 pointer{-FLT_MAX, -FLT_MAX};
   std::array<bool, 5> buttons{};
-  int width = 0, height = 0;  // of the frame buffer
+  int width = 0, height = 0;  // width and height of the frame buffer
   int framesDue = 3;          // what happens in a frame may show only in the next
 
   void add(InputEvent event) {
@@ -116,7 +116,7 @@ void Window::listen() {
       window, [](GLFWwindow* w, unsigned c) { stateOf(w).add({.kind = Kind::character, .character = c}); });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int held) {
     InputEvent event{.kind = Kind::key, .code = key, .writes = key};
-    const char* name = glfwGetKeyName(key, scancode);  // of the user's keyboard
+    const char* name = glfwGetKeyName(key, scancode);  // name of the user's keyboard
     if (name && name[0] && !name[1])
       event.writes = *name == '+' ? '=' : std::toupper(static_cast<unsigned char>(*name));
     event.down = action != GLFW_RELEASE;

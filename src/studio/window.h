@@ -50,7 +50,7 @@ class Window {
   void drop(const std::string& file);
   /// Keys that went down in this frame.
   const std::vector<KeyPress>& keys() const;
-  /// What the last frame looked like.
+  /// The pixels of the last frame.
   Bytes screenshot() const;
   /// To be called after the fonts have changed, between frames.
   void fontsChanged();

@@ -385,7 +385,7 @@ TEST_F(DocumentTest, SavingAValueThatHadKeysWarns) {
   const std::vector<Message> warnings = document.save(path("animated.ray"));
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(warnings[0].place.line, 4);
-  EXPECT_EQ(warnings[1].what, "the file as it was is kept as animated.ray.bak");
+  EXPECT_EQ(warnings[1].what, "the old file is kept as animated.ray.bak");
   EXPECT_FALSE(document.changesWithTime());
   EXPECT_NE(readFile(path("animated.ray")).find("translate(7, 0, 0, sphere"), std::string::npos);
 }

@@ -18,7 +18,9 @@
 #include "geometry/shape.h"
 #include "shading/lights/light.h"
 #include "shading/material.h"
+#include "shading/material_list.h"
 #include "shading/texture.h"
+#include "shading/texture_list.h"
 #include "support/folder.h"
 #include "support/shapes.h"
 
@@ -167,7 +169,7 @@ TEST_F(ExtremeValues, OfTheCamera) {
 }
 
 TEST_F(ExtremeValues, OfEachMaterial) {
-  forEachType<MaterialModel>([&]<class Kind>(Kind*) {
+  forEachType<ModelList>([&]<class Kind>(Kind*) {
     inEachField<Kind>([&](const std::string& field, const std::string& form) {
       expectRefusedOrSeen(std::string(kCamera) + kLight + "translate(0,1,2, sphere { material = " +
                           std::string(Kind::kKeyword) + " { " + field + " = " + form + "; }; })");
@@ -176,7 +178,7 @@ TEST_F(ExtremeValues, OfEachMaterial) {
 }
 
 TEST_F(ExtremeValues, OfEachTexture) {
-  forEachType<TextureModel>([&]<class Kind>(Kind*) {
+  forEachType<TextureList>([&]<class Kind>(Kind*) {
     const auto expect = [&](const std::string& field, const std::string& form) {
       expectRefusedOrSeen(std::string(kCamera) + kLight +
                               "translate(0,1,2, sphere { material = { diffuse = " +
@@ -195,8 +197,8 @@ std::vector<Shape> atItsMost(const ShapeType& type) {
     if (int* const* count = std::get_if<int*>(&field.value); count && field.most > field.least)
       **count = static_cast<int>(std::min<Real>(field.most, std::numeric_limits<int>::max()));
   std::vector<Shape> all{most};
-  for (std::size_t field = 0; field < fieldsOf(most).size(); ++field)
-    if (std::holds_alternative<EnumValue>(fieldsOf(most)[field].value))
+  for (std::size_t field = 0; field < most.fields().size(); ++field)
+    if (std::holds_alternative<EnumValue>(most.fields()[field].value))
       for (Shape& other : varied(most, field)) all.push_back(std::move(other));
   return all;
 }

@@ -340,7 +340,7 @@ TEST(Lint, ASpotLightMayShineOnNothing) {
   EXPECT_EQ(
       said("direction = (0, 0, 1); color = (1, 1, 1);",
            "translate(0, 5, 20, sphere { name = \"other\"; material = { diffuse = (1, 1, 1); } })"),
-      "unlit: \"ball\" is seen, but no light reaches what is seen of it: it is black; it is outside the "
+      "unlit: \"ball\" is visible, but no light reaches its visible side: it is black; it is outside the "
       "cone of the spot light\n");
 }
 
@@ -407,10 +407,9 @@ TEST(Lint, ALampInACaseHasOneCure) {
 TEST(Lint, RoundThingsAtOnePlaceAreInNoPlane) {
   const std::string other = "sphere { name = \"other\"; material = { diffuse = (0, 1, 0); } }";
   const auto what = [&](const std::string& things) { return names(lintText(kCamera + kSun + things)); };
-  EXPECT_EQ(
-      what("sphere { name = \"one\"; material = { diffuse = (1, 0, 0); } }" + other),
-      "coplanar: the surfaces of \"other\" and \"one\" are at the same place: which of them is seen is left "
-      "to rounding\n");
+  EXPECT_EQ(what("sphere { name = \"one\"; material = { diffuse = (1, 0, 0); } }" + other),
+            "coplanar: the surfaces of \"other\" and \"one\" are at the same place: rounding decides which "
+            "of them is visible\n");
 }
 
 TEST(Lint, GlassAndMirrorsUnderABackgroundAreBlackWhereNothingIs) {

@@ -145,7 +145,7 @@ TEST(PathWays, WhereThereAreNoneItIsSaidWhy) {
   RayTree sky = tree;
   sky.nodes.front().hit.reset();
   EXPECT_EQ(whyNoWays(sky, settings),
-            "The camera ray met nothing, so there is no place to join with a light.");
+            "The camera ray hit nothing, so there is no vertex to connect with a light.");
   settings.integrator = IntegratorKind::path;
   EXPECT_FALSE(isBidirectional(settings));
 }

@@ -128,7 +128,7 @@ TEST(RoundTrip, ExamplesLookTheSameAfterTheirTextWasEdited) {
       });
     for (Material& material : edited.materials) {
       changeColors(material.model, {kDiffuse, kColor}, [](const Color& color) { return color * 0.8; });
-      if (Phong* phong = std::get_if<Phong>(&material.model)) phong->shininess += 3;
+      if (Phong* phong = material.model.edit<Phong>()) phong->shininess += 3;
     }
     edited.choices = changedOptions(resolve({edited.choices}));
     const auto files = writeEdited(read, edited, file, messages).files;

@@ -4,6 +4,11 @@
 
 #include "app/edits.h"
 #include "shading/texture_flaws.h"
+#include "shading/textures/brick.h"
+#include "shading/textures/checker.h"
+#include "shading/textures/formula.h"
+#include "shading/textures/image_map.h"
+#include "shading/textures/noise.h"
 
 namespace trace {
 namespace {
@@ -17,9 +22,9 @@ TEST(TextureEdits, AnotherKindKeepsWhatBothHave) {
   const Texture before(node);
   const Texture brick = textureOfKind("brick", &before);
   EXPECT_EQ(brick->name, "");
-  EXPECT_EQ(std::get<Brick>(brick->model).a, Color(0.3));
-  EXPECT_EQ(std::get<Brick>(brick->model).b, Brick{}.b) << "a default gives way to the other's";
-  EXPECT_EQ(std::get<Brick>(brick->model).space, TextureSpace::uv);
+  EXPECT_EQ(brick->model.as<Brick>()->a, Color(0.3));
+  EXPECT_EQ(brick->model.as<Brick>()->b, Brick{}.b) << "a default gives way to the other's";
+  EXPECT_EQ(brick->model.as<Brick>()->space, TextureSpace::uv);
   EXPECT_EQ(brick->placement, node.placement);
   EXPECT_NE(textureOf(brick->inputs, "a"), nullptr);
   const Texture image = textureOfKind("image", &before);
@@ -29,7 +34,7 @@ TEST(TextureEdits, AnotherKindKeepsWhatBothHave) {
 TEST(TextureEdits, EveryKindCanBeChosen) {
   for (const TextureKind& kind : textureKindsToChoose()) {
     const Texture texture = textureOfKind(kind.keyword);
-    match(texture->model, [&](const auto& model) { EXPECT_EQ(model.kKeyword, kind.keyword); });
+    EXPECT_EQ(texture->model.keyword(), kind.keyword);
   }
 }
 
@@ -53,17 +58,18 @@ TEST(TextureEdits, AFieldThatCountsForNothingSaysWhy) {
 }
 
 TEST(TextureEdits, ARampBeginsWithTheColoursThatItTakesThePlaceOf) {
-  Noise before;
-  before.a = Color(0.1, 0.2, 0.3), before.b = Color(0.9);
-  Noise now = before;
-  now.ramp.emplace_back();
+  Noise colors;
+  colors.a = Color(0.1, 0.2, 0.3), colors.b = Color(0.9);
+  const TextureModel before = colors;
+  TextureModel now = before;
+  now.edit<Noise>()->ramp.emplace_back();
   followEdit(now, before, "ramp");
-  EXPECT_EQ(now.ramp, (ColorRamp{{0, 0.1, 0.2, 0.3}, {1, 0.9, 0.9, 0.9}}));
-  for (const Real t : {0.0, 0.3, 1.0}) EXPECT_EQ(now.shade(t), before.shade(t));
-  Noise less = now;
-  less.ramp.pop_back();
+  EXPECT_EQ(now.as<Noise>()->ramp, (ColorRamp{{0, 0.1, 0.2, 0.3}, {1, 0.9, 0.9, 0.9}}));
+  for (const Real t : {0.0, 0.3, 1.0}) EXPECT_EQ(now.as<Noise>()->shade(t), colors.shade(t));
+  TextureModel less = now;
+  less.edit<Noise>()->ramp.pop_back();
   followEdit(less, now, "ramp");
-  EXPECT_EQ(less.ramp.size(), 1u) << "one that is left over stays alone";
+  EXPECT_EQ(less.as<Noise>()->ramp.size(), 1u) << "one that is left over stays alone";
 }
 
 TEST(TextureEdits, FlawsAreTold) {

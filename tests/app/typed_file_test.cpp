@@ -29,7 +29,7 @@ TEST(TypedFile, CountsFromTheFolderOfTheScene) {
     FAIL() << "there is no such file";
   } catch (const Error& error) {
     EXPECT_EQ(error.messages().front().what,
-              "backdrop: expected a file, found \"dusk.png\", which is not there; not taken");
+              "backdrop: expected a file, found \"dusk.png\", which does not exist; not accepted");
   }
   std::ofstream(folder / "odd\".png") << "no picture";
   EXPECT_THROW(typedFile("odd\".png", "backdrop", scene), Error) << "no scene could name it";

@@ -183,7 +183,7 @@ TEST_F(WorkspaceTest, ThePictureFollowsEditsAndUndoButNotThreads) {
   waitFor(workspace.render);
   const Picture red = workspace.render.picture();
   Scene scene = workspace.document.scene();
-  std::get<Phong>(scene.materials.at(0).model).diffuse = {0, 1, 0};
+  scene.materials.at(0).model.edit<Phong>()->diffuse = {0, 1, 0};
   workspace.document.edit("diffuse", scene);
   EXPECT_TRUE(workspace.stale());
   workspace.update();
@@ -217,7 +217,7 @@ polymesh { material = { diffuse = (1,0,0); } points = ((-1,-1,0), (1,-1,0), (0,1
   waitFor(workspace.render);
   const auto before = workspace.render.session();
   Scene scene = workspace.document.scene();
-  std::get<Phong>(scene.materials.at(0).model).diffuse = {0, 1, 0};
+  scene.materials.at(0).model.edit<Phong>()->diffuse = {0, 1, 0};
   workspace.document.edit("diffuse", scene);
   workspace.document.choose("depth", "2");
   workspace.update();

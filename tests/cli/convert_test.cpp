@@ -179,8 +179,7 @@ TEST_F(Convert, TakesTheMomentThatTheSceneChooses) {
   write("moving.ray", scene);
   const auto converted = run({"convert", "moving.ray", "still.ray"});
   EXPECT_EQ(converted.code, 0) << converted.err;
-  EXPECT_TRUE(test::contains(converted.err, "what changes with time is written as it is at 2 s"))
-      << converted.err;
+  EXPECT_TRUE(test::contains(converted.err, "an animated scene is written as it is at 2 s")) << converted.err;
   EXPECT_TRUE(test::contains(read("still.ray"), "translate(0.5, 0, 0")) << read("still.ray");
   EXPECT_TRUE(
       test::contains(run({"convert", "moving.ray", "later.ray", "--time", "1"}).err, "as it is at 1 s"));

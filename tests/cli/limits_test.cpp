@@ -157,7 +157,7 @@ TEST_F(Limits, TheMessageSaysWhatWasDoneAndHowFar) {
   EXPECT_TRUE(contains(converted.err,
                        "error: the time limit of 0.1 s is over while converting the scene, making triangles "
                        "of the objects (0 of 1 done)"));
-  EXPECT_TRUE(contains(converted.last, "nothing written: a limit of size, memory or time was met"));
+  EXPECT_TRUE(contains(converted.last, "nothing written: a limit of size, memory or time was reached"));
   EXPECT_FALSE(exists("out.obj"));
   const Run read = run({"info", "mesh.ray", "--time-limit", "0.1"});
   EXPECT_EQ(read.code, kLimit);

@@ -47,7 +47,7 @@ TEST_F(ResumeTest, GoesOnByItselfAfterATimeLimit) {
   ASSERT_TRUE(exists("out.png.checkpoint")) << first.err;
   const Run second = run(words("out.png", {"-w", "300", "--stats=json"}));
   EXPECT_EQ(second.code, 0);
-  EXPECT_TRUE(contains(second.err, "going on from out.png.checkpoint, ")) << second.err;
+  EXPECT_TRUE(contains(second.err, "continuing from out.png.checkpoint, ")) << second.err;
   EXPECT_EQ(bytes("out.png"), bytes("whole.png"));
   EXPECT_FALSE(exists("out.png.checkpoint"));
 }
@@ -67,7 +67,7 @@ TEST_F(ResumeTest, SamplesAreAddedToAFinishedPicture) {
   ASSERT_EQ(run(words("out.png", {"--resume"})).code, 0);
   ASSERT_TRUE(exists("out.png.checkpoint"));
   const Run more = run(words("out.png", {"--spp", "100", "--resume"}));
-  EXPECT_TRUE(contains(more.err, "going on from out.png.checkpoint, 64 % done")) << more.err;
+  EXPECT_TRUE(contains(more.err, "continuing from out.png.checkpoint, 64 % done")) << more.err;
   EXPECT_EQ(bytes("out.png"), bytes("whole.png"));
   const Run grid = run({"ball.ray", "grid.png", "-w", "20", "--resume"});
   EXPECT_TRUE(contains(grid.err, "none can be added later")) << grid.err;
@@ -79,7 +79,7 @@ TEST_F(ResumeTest, AStartOfManySamplesServesFewer) {
   ASSERT_EQ(first.code, 5) << first.err;
   const Run second = run(words("out.png", {"--spp", "100"}));
   EXPECT_EQ(second.code, 0);
-  EXPECT_TRUE(contains(second.err, "going on from out.png.checkpoint, ")) << second.err;
+  EXPECT_TRUE(contains(second.err, "continuing from out.png.checkpoint, ")) << second.err;
   EXPECT_EQ(bytes("out.png"), bytes("whole.png"));
 }
 
@@ -134,7 +134,7 @@ TEST_F(ResumeTest, AFrameGoesOnToo) {
   ASSERT_EQ(run(limited).code, 5);
   const Run rest = run(all);
   EXPECT_EQ(rest.code, 0) << rest.err;
-  EXPECT_TRUE(contains(rest.err, "going on from f.0")) << rest.err;
+  EXPECT_TRUE(contains(rest.err, "continuing from f.0")) << rest.err;
   EXPECT_EQ(files(), 5u) << "three scenes and two frames";
 }
 

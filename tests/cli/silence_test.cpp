@@ -102,7 +102,7 @@ rotate(1,0,0,-1.5708, scale(12, square { material = { library = oak; } }))
 translate(0,1,0, sphere { material = { library = glass; } })
 )");
   const Run r = run({"glass.ray", "path.png"});
-  EXPECT_TRUE(contains(r.err, "glass.ray:3:1: warning: sphere (glass.ray:7) throws no bright spots"));
+  EXPECT_TRUE(contains(r.err, "glass.ray:3:1: warning: sphere (glass.ray:7) has no caustics"));
   EXPECT_TRUE(contains(r.err, "rays do not see a light of this kind"));
   EXPECT_TRUE(contains(r.err, "hint: --integrator bdpt or photon"));
   EXPECT_FALSE(contains(r.err, "visible = true")) << "which this light refuses";

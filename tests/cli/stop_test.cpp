@@ -177,8 +177,8 @@ TEST_F(Stop, TheLastLineSaysWhichFilesAreInTheirPlaceAllTheSame) {
   EXPECT_EQ(program.wait(), 1) << program.err();
   EXPECT_TRUE(contains(program.lastLine(), "wrote " + path("temporary") + "/trace-"));
   EXPECT_FALSE(contains(program.lastLine(), "instead of out.png")) << "it was replaced";
-  EXPECT_TRUE(
-      contains(program.lastLine(), "since not all files could be written in their place; there is out.png"));
+  EXPECT_TRUE(contains(program.lastLine(),
+                       "because not all files could be written in their place; there is out.png"));
   EXPECT_EQ(readPicture(path("out.png")).width, 1400);
   const auto there = std::filesystem::directory_iterator(path("temporary"))->path();
   for (const char* name : {"out.png", "out.depth.exr", "out.id.exr"})
@@ -218,7 +218,7 @@ TEST_F(Stop, CtrlCAfterTheLastRayKeepsWhatWasTraced) {
                          "stopped while taking noise out: the picture is written without "
                          "--denoise and its passes; its samples are kept"));
     EXPECT_TRUE(contains(program.lastLine(), "stopped by the user: wrote out.png (700x560) in "));
-    EXPECT_TRUE(contains(program.lastLine(), "the same command goes on from there"));
+    EXPECT_TRUE(contains(program.lastLine(), "the same command continues from there"));
     EXPECT_EQ(readPicture(path("out.png")).at(350, 280), Color(1));
     EXPECT_FALSE(exists("out.depth.exr"));
     std::filesystem::remove(path("out.png"));
@@ -228,7 +228,7 @@ TEST_F(Stop, CtrlCAfterTheLastRayKeepsWhatWasTraced) {
   // The same command finishes it, without a ray, and takes the checkpoint away; here with less to do.
   const Run r = run({"white.ray", "out.png", "-w", "700", "--spp", "8", "--denoise", "-t", "1", "--passes",
                      "depth", "--time-limit", "1"});
-  EXPECT_TRUE(contains(r.err, "going on from out.png.checkpoint, 100 % done"));
+  EXPECT_TRUE(contains(r.err, "continuing from out.png.checkpoint, 100 % done"));
   EXPECT_TRUE(exists("out.png"));
 }
 

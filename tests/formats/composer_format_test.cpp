@@ -56,13 +56,13 @@ TEST(Composer, SpheresHaveThreeAxesOrOneRadius) {
 TEST(Composer, MaterialsAreGlassOfAFixedIndexThatNamesMayChange) {
   const Scene scene = sceneIn(corpusFile("text.out"));
   const Material& material = scene.materials[scene.objects[0].material];
-  const Phong& phong = std::get<Phong>(material.model);
+  const Phong& phong = *material.model.as<Phong>();
   EXPECT_EQ(phong.diffuse, Color(0.25, 0.1, 0.1));
   EXPECT_EQ(phong.transmissive, Color(0.5));
   EXPECT_EQ(phong.reflective, Color(0.4));
   EXPECT_EQ(phong.index, 1.33);
   EXPECT_EQ(material.textures, (std::vector<FieldTexture>{{"diffuse", pictureTexture("wood.png")}}));
-  EXPECT_EQ(std::get<Phong>(scene.materials[scene.objects[1].material].model).index, 1.5);
+  EXPECT_EQ(scene.materials[scene.objects[1].material].model.as<Phong>()->index, 1.5);
 }
 
 TEST(Composer, PolygonsOfAnySidesWithNormalsMaterialsAndTexture) {

@@ -10,6 +10,7 @@
 #include "scene/conventions.h"
 #include "scene/options.h"
 #include "scene/scene.h"
+#include "shading/material_list.h"
 #include "support/paths.h"
 
 namespace trace::docs_test {
@@ -32,12 +33,12 @@ TEST(Docs, NameEveryNodeAndField) {
   for (const ShapeType& type : shapeTypes()) {
     const std::string node = "`" + std::string(type.keyword) + "`";
     EXPECT_NE(text.find(node), std::string::npos) << node;
-    for (const AnyField& field : fieldsOf(Shape(type)))
+    for (const AnyField& field : Shape(type).fields())
       EXPECT_NE(text.find("`" + std::string(field.keyword) + "`"), std::string::npos)
           << node << " " << field.keyword;
   }
   forEachType<Light>([&]<class L>(L*) { expectDocumented<L>(text); });
-  forEachType<MaterialModel>([&]<class M>(M*) { expectDocumented<M>(text + "`material`"); });
+  forEachType<ModelList>([&]<class M>(M*) { expectDocumented<M>(text + "`material`"); });
   expectDocumented<Camera>(text + "`camera`");
   expectDocumented<Background>(text);
 }

@@ -1,5 +1,9 @@
 // What extensions of glTF materials become.
 #include "model_texture_helpers.h"
+#include "shading/materials/principled.h"
+#include "shading/materials/rough_glass.h"
+#include "shading/materials/thin_glass.h"
+#include "shading/textures/image_map.h"
 
 namespace trace::gltf_extensions_test {
 namespace {
@@ -25,7 +29,7 @@ TEST(GltfExtensions, AClearCoatHasItsOwnNormals) {
   EXPECT_EQ(principledOf(bumpy).clearcoatBump, 0.25);
   EXPECT_TRUE(principledOf(bumpy).clearcoatApart);
   expectUpright(bumpy, "clearcoat_bump");
-  EXPECT_EQ(std::get<ImageMap>(bumpy.texture("clearcoat_bump")->model).relief, Relief::normals);
+  EXPECT_EQ(bumpy.texture("clearcoat_bump")->model.as<ImageMap>()->relief, Relief::normals);
 
   const auto with = [](const char* extension) {
     return Read("a.gltf",
@@ -51,7 +55,7 @@ TEST(GltfExtensions, ASheetMayPassAPartOfTheLight) {
 
   const Read body = extended("KHR_materials_transmission", part, maps, picture(),
                              R"(, "KHR_materials_volume": {"thicknessFactor": 2})");
-  EXPECT_TRUE(std::holds_alternative<Phong>(body.material().model)) << "it bends light";
+  EXPECT_TRUE(body.material().model.is<Phong>()) << "it bends light";
   EXPECT_NE(body.warnings().find("is not rendered yet"), std::string::npos);
 }
 
@@ -113,7 +117,7 @@ TEST(GltfExtensions, WhatAllLightPassesIsGlass) {
   const Read body = read(red, R"(, "KHR_materials_volume": {"thicknessFactor": 2, "attenuationDistance": 0.5,
 "attenuationColor": [0.9, 0.8, 0.7]}, "KHR_materials_ior": {"ior": 1.7}, "KHR_materials_dispersion": {"dispersion": 0.5})");
   EXPECT_EQ(body.warnings(), "");
-  const auto& glass = std::get<RoughGlass>(body.material().model);
+  const auto& glass = *body.material().model.as<RoughGlass>();
   EXPECT_EQ(glass.color, Color(1, 0.5, 0.2));
   EXPECT_EQ(glass.roughness, 0.3);
   EXPECT_EQ(glass.index, 1.7);
@@ -122,9 +126,9 @@ TEST(GltfExtensions, WhatAllLightPassesIsGlass) {
   EXPECT_EQ(glass.abbe, 40) << "20 by the dispersion";
 
   const Read sheet = read("\"metallicFactor\": 0, \"roughnessFactor\": 0", "");
-  EXPECT_TRUE(std::holds_alternative<ThinGlass>(sheet.material().model));
+  EXPECT_TRUE(sheet.material().model.is<ThinGlass>());
   const Read frosted = read(red, "");
-  EXPECT_EQ(std::get<Phong>(frosted.material().model).index, 1) << "a sheet does not bend light";
+  EXPECT_EQ(frosted.material().model.as<Phong>()->index, 1) << "a sheet does not bend light";
 }
 
 TEST(GltfExtensions, APictureSaysWhereLightPasses) {

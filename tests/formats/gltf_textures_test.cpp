@@ -1,5 +1,7 @@
 // Pictures of glTF: exact texels, by the texture coordinates of their meshes.
 #include "model_texture_helpers.h"
+#include "shading/materials/principled.h"
+#include "shading/textures/image_map.h"
 
 namespace trace::gltf_textures_test {
 namespace {
@@ -9,7 +11,7 @@ using namespace test;
 TEST(GltfTextures, PicturesInsideTheFileStandUpright) {
   const Read read("a.gltf", gltf(kBase));
   EXPECT_EQ(read.warnings(), "");
-  EXPECT_TRUE(std::holds_alternative<Principled>(read.material().model));
+  EXPECT_TRUE(read.material().model.is<Principled>());
   expectUpright(read, "color");
   expectUpright(read, "ambient");
   EXPECT_EQ(read.mesh().uvs, (std::vector<Vec2>{{0, 1}, {1, 1}, {0, 0}})) << "(0, 0) is the top left corner";
@@ -54,7 +56,7 @@ TEST(GltfTextures, ChannelsOfMetallicRoughnessAndOcclusion) {
 
 TEST(GltfTextures, NormalsBendTheNormal) {
   const Read read("a.gltf", gltf(R"("normalTexture": {"index": 0, "scale": 0.5})"));
-  const auto& map = std::get<ImageMap>(read.texture("bump")->model);
+  const auto& map = *read.texture("bump")->model.as<ImageMap>();
   EXPECT_EQ(map.relief, Relief::normals) << "green counts up";
   EXPECT_FALSE(map.srgb);
   EXPECT_EQ(read.material().bump, 0.5);
@@ -98,7 +100,7 @@ TEST(GltfTextures, AlphaMakesHoles) {
   EXPECT_EQ(mask.opacityAt(kTopLeft), 1);
   EXPECT_EQ(mask.phongAt(kBottomLeft).diffuse, kBlue) << "128 of 255 are enough";
   EXPECT_EQ(mask.opacityAt(kBottomRight), 0);
-  EXPECT_TRUE(std::holds_alternative<Principled>(with("OPAQUE", 0.5).material().model));
+  EXPECT_TRUE(with("OPAQUE", 0.5).material().model.is<Principled>());
 }
 
 TEST(GltfTextures, HolesKeepMetalnessAndRoughness) {
@@ -110,7 +112,7 @@ TEST(GltfTextures, HolesKeepMetalnessAndRoughness) {
   };
   const Read blend = with("BLEND"), mask = with("MASK");
   for (const Read* read : {&blend, &mask}) {
-    EXPECT_TRUE(std::holds_alternative<Principled>(read->material().model));
+    EXPECT_TRUE(read->material().model.is<Principled>());
     EXPECT_EQ(read->at("metallic", kBottomLeft), Color(1)) << "blue";
     EXPECT_EQ(read->warnings(), "");
   }
@@ -129,7 +131,7 @@ TEST(GltfTextures, IridescenceIsAFilm) {
 "iridescenceThicknessTexture": {"index": 0}}})",
                                  "\"source\": 0"));
   EXPECT_EQ(read.warnings(), "");
-  const auto& model = std::get<Principled>(read.material().model);
+  const auto& model = *read.material().model.as<Principled>();
   EXPECT_EQ(model.iridescence, 0.7);
   EXPECT_EQ(model.iridescenceIndex, 1.4);
   EXPECT_EQ(model.iridescenceThickness, 500);
@@ -185,8 +187,8 @@ TEST(GltfVersion1, IsReadAsVersion2) {
     EXPECT_EQ(read.mesh(0).points, (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
     EXPECT_EQ(read.mesh(0).uvs, (std::vector<Vec2>{{0, 1}, {1, 1}, {0, 0}}));
     expectUpright(read, "color");
-    EXPECT_EQ(std::get<ImageMap>(read.texture("color")->model).wrapU, Wrap::clamp);
-    const auto& model = std::get<Principled>(read.material().model);
+    EXPECT_EQ(read.texture("color")->model.as<ImageMap>()->wrapU, Wrap::clamp);
+    const auto& model = *read.material().model.as<Principled>();
     EXPECT_EQ(model.metallic, 0);
     EXPECT_NEAR(std::pow(model.roughness, 4), 2.0 / (6 + 2), 1e-12)
         << "a lobe as wide as that of the exponent";
@@ -195,7 +197,7 @@ TEST(GltfVersion1, IsReadAsVersion2) {
 
 TEST(GltfVersion1, ColoursAreShownAsTheyAre) {
   const Read read("a.gltf", gltf1(false, R"("diffuse": [0.5, 1, 0, 0.25], "emission": [0.2, 0, 0, 1])"));
-  const auto& phong = std::get<Phong>(read.material().model);
+  const auto& phong = *read.material().model.as<Phong>();
   EXPECT_NEAR(phong.diffuse.r, linearOfSrgb(0.5), 1e-12);
   EXPECT_NEAR(phong.emissive.r, linearOfSrgb(0.2), 1e-12);
   EXPECT_EQ(read.material().opacity, 0.25);

@@ -53,7 +53,7 @@ TEST(Ies, ReadsItsCandelas) {
   std::string warnings;
   EXPECT_NEAR(fromFile("tilt.ies", &warnings).lumens(), downlight.lumens(), 1e-9);
   EXPECT_EQ(warnings,
-            "TILT: what a lamp loses when the luminaire is tilted is not counted: it shines as if it hung "
+            "TILT: the loss of a tilted lamp is not applied: it shines as if it hung "
             "straight\n");
 }
 

@@ -37,7 +37,7 @@ struct Written {
 };
 
 const Phong& phongAt(const Scene& scene, std::size_t object) {
-  return std::get<Phong>(scene.materials.at(scene.objects.at(object).material).model);
+  return *scene.materials.at(scene.objects.at(object).material).model.as<Phong>();
 }
 void expectNear(const Vec3& a, const Vec3& b) {
   EXPECT_LT(length(a - b), 1e-9) << a.x << " " << a.y << " " << a.z;
@@ -145,8 +145,8 @@ TEST(InventorWriter, NormalsMaterialsOfPointsAndPictures) {
   for (std::size_t t = 0; t < 2; ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = colored.triangles[t][k], b = before.triangles[t][k];
-      EXPECT_EQ(std::get<Phong>(written.again.materials.at(colored.materials.at(a)).model).diffuse,
-                std::get<Phong>(scene.materials.at(before.materials.at(b)).model).diffuse);
+      EXPECT_EQ(written.again.materials.at(colored.materials.at(a)).model.as<Phong>()->diffuse,
+                scene.materials.at(before.materials.at(b)).model.as<Phong>()->diffuse);
       expectNear(normalize(Vec3(colored.normals[a])), normalize(Vec3(before.normals[b])));
     }
   const MeshData& painted = meshOf(written.again, 1);

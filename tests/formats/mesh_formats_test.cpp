@@ -8,6 +8,8 @@
 #include "formats/model_textures.h"
 #include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
+#include "shading/materials/principled.h"
+#include "shading/textures/image_map.h"
 #include "support/folder.h"
 #include "support/paths.h"
 
@@ -45,7 +47,7 @@ TEST(Off, ReadsPolygonsNormalsAndColours) {
   const Scene scene = read("off/colours.off");
   const MeshData& mesh = meshOf(scene);
   EXPECT_EQ(mesh.normals, std::vector<Vec3f>(3, {0, 0, 1}));
-  EXPECT_EQ(std::get<Phong>(scene.materials.at(mesh.materials.at(1)).model).diffuse, Color(0, 1, 0));
+  EXPECT_EQ(scene.materials.at(mesh.materials.at(1)).model.as<Phong>()->diffuse, Color(0, 1, 0));
 }
 
 TEST(Off, CountsWhatItLeavesOutAndNamesTheFirst) {
@@ -144,7 +146,7 @@ TEST(Obj, TakesLinesThatGoOnAndColoursOfOneNumber) {
   EXPECT_EQ(scene, scene);
   ASSERT_EQ(meshOf(scene).triangles.size(), 1u);
   EXPECT_EQ(meshOf(scene).points.at(1), (Vec3f{1, 0, 0}));
-  const auto& phong = std::get<Phong>(scene.materials.at(scene.objects.at(0).material).model);
+  const auto& phong = *scene.materials.at(scene.objects.at(0).material).model.as<Phong>();
   EXPECT_EQ(phong.ambient, Color(Real(0.1f), Real(0.2f), Real(0.3f)));
   EXPECT_EQ(phong.transmissive, Color(0.25));
 }
@@ -195,8 +197,8 @@ TEST(Gltf, ReadsHierarchyCameraLightsAndMaterials) {
   const Material& paint = scene.materials.at(scene.objects[0].material);
   EXPECT_EQ(paint.name, "paint");
   EXPECT_EQ(paint.textures, pictureOn({"ambient", "color"}, "wood.png", true));
-  EXPECT_EQ(std::get<Principled>(paint.model).color, Color(0.8, 0.4, 0.1)) << "it has a texture";
-  const auto& metal = std::get<Principled>(scene.materials.at(scene.objects[1].material).model);
+  EXPECT_EQ(paint.model.as<Principled>()->color, Color(0.8, 0.4, 0.1)) << "it has a texture";
+  const auto& metal = *scene.materials.at(scene.objects[1].material).model.as<Principled>();
   EXPECT_EQ(metal.metallic, 1) << "its points have colours, which Phong's model would not show";
   EXPECT_EQ(meshOf(scene, 1).materials.size(), 4u);
 }
@@ -284,7 +286,7 @@ mesh { file = "ply/little.ply"; })")
             pictureOn({"ambient", "diffuse"}, "obj/bricks.png"));
   const MeshData& coloured = meshOf(scene, 7);
   ASSERT_EQ(coloured.materials.size(), 4u);
-  EXPECT_EQ(std::get<Phong>(scene.materials.at(coloured.materials[1]).model).diffuse.r, 1);
+  EXPECT_EQ(scene.materials.at(coloured.materials[1]).model.as<Phong>()->diffuse.r, 1);
 }
 
 TEST(RayMeshFile, SmoothsAndSubdivides) {

@@ -51,7 +51,7 @@ TEST(MeshWriters, PlyHasColoursOfSeveralMaterials) {
       false);
   const MeshData& mesh = meshOf(back);
   ASSERT_EQ(mesh.materials.size(), 6u);
-  EXPECT_EQ(std::get<Phong>(back.materials.at(mesh.materials[5]).model).diffuse, Color(0, 1, 0.2));
+  EXPECT_EQ(back.materials.at(mesh.materials[5]).model.as<Phong>()->diffuse, Color(0, 1, 0.2));
   EXPECT_EQ(mesh.normals.size(), 6u) << "flat ones for the mesh without";
   EXPECT_TRUE(mesh.uvs.empty()) << "not all meshes have them";
 }

@@ -14,6 +14,7 @@
 #include "geometry/mesh/mesh.h"
 #include "image/mipmap.h"
 #include "image/srgb.h"
+#include "shading/materials/principled.h"
 #include "shading/microfacet.h"
 #include "support/folder.h"
 
@@ -72,7 +73,7 @@ struct Read {
   }
   /// The field at a place, its constant and its texture.
   Phong phongAt(const Vec2& uv, std::size_t object = 0) const {
-    Phong phong = std::get<Phong>(material(object).model);
+    Phong phong = *material(object).model.as<Phong>();
     applyTextures(phong, material(object).textures,
                   {.point = {}, .uv = uv, .uvX = {}, .uvY = {}, .pointX = {}, .pointY = {}});
     return phong;
@@ -123,8 +124,6 @@ inline Read extended(const std::string& extension, const std::string& fields, co
                              "\": {" + fields + "}" + also + "}",
                          "\"source\": 0", "", bytes)};
 }
-inline const Principled& principledOf(const Read& read) {
-  return std::get<Principled>(read.material().model);
-}
+inline const Principled& principledOf(const Read& read) { return *read.material().model.as<Principled>(); }
 
 }  // namespace trace::test

@@ -1,6 +1,12 @@
 // What the textures of other models than glTF become: exact texels, by the texture coordinates of their
 // meshes.
+#include "formats/model_textures.h"
+
 #include "model_texture_helpers.h"
+#include "shading/materials/principled.h"
+#include "shading/materials/rough_glass.h"
+#include "shading/textures/image_map.h"
+#include "support/webp.h"
 
 namespace trace::model_textures_test {
 namespace {
@@ -44,11 +50,11 @@ TEST_F(ObjTextures, OptionsPlaceThePicture) {
 TEST_F(ObjTextures, BumpsAreHeightsByTheModelsSize) {
   const Read heights = read("map_Bump -bm 2 a.tga");
   EXPECT_EQ(heights.warnings(), "");
-  EXPECT_EQ(std::get<ImageMap>(heights.texture("bump")->model).relief, Relief::heights);
+  EXPECT_EQ(heights.texture("bump")->model.as<ImageMap>()->relief, Relief::heights);
   EXPECT_NEAR(heights.material().bump, 2.0 / 200, 1e-7) << "of a triangle with sides of 1";
   EXPECT_NEAR(read("bump a.tga").material().bump, 1.0 / 200, 1e-7);
   const Read normals = read("bump a.tga\nnorm a.tga");
-  EXPECT_EQ(std::get<ImageMap>(normals.texture("bump")->model).relief, Relief::normals);
+  EXPECT_EQ(normals.texture("bump")->model.as<ImageMap>()->relief, Relief::normals);
   EXPECT_EQ(normals.material().bump, 1);
 }
 
@@ -56,13 +62,13 @@ TEST_F(ObjTextures, DisplacementIsHeightsUnlessOthersAreGiven) {
   for (const char* statement : {"disp", "map_disp", "map_Disp"}) {
     const Read alone = read(std::string(statement) + " -bm 3 a.tga");
     EXPECT_EQ(alone.warnings(), "") << statement;
-    EXPECT_EQ(std::get<ImageMap>(alone.texture("bump")->model).relief, Relief::heights);
+    EXPECT_EQ(alone.texture("bump")->model.as<ImageMap>()->relief, Relief::heights);
     EXPECT_NEAR(alone.material().bump, 3.0 / 200, 1e-7);
   }
   for (const char* other : {"bump", "norm"}) {
     const Read both = read(std::string(other) + " a.tga\ndisp b.tga");
     EXPECT_NE(both.warnings().find("the texture \"b.tga\" is not rendered yet"), std::string::npos) << other;
-    EXPECT_EQ(std::get<ImageMap>(both.texture("bump")->model).file.file.find("a.tga"), 0u);
+    EXPECT_EQ(both.texture("bump")->model.as<ImageMap>()->file.file.find("a.tga"), 0u);
   }
 }
 
@@ -89,7 +95,7 @@ TEST_F(ObjTextures, PhysicalMaterialsArePrincipled) {
   const Read numbers =
       read("Kd 0.5 0.4 0.3\nPr 0.25\nPm 1\nPs 0.5\nPc 0.75\nPcr 0.125\naniso 0.5\nanisor 0.25\nd 0.5");
   EXPECT_EQ(numbers.warnings(), "");
-  const auto& model = std::get<Principled>(numbers.material().model);
+  const auto& model = *numbers.material().model.as<Principled>();
   EXPECT_EQ(model.color, Color(Real(0.5f), Real(0.4f), Real(0.3f)));
   EXPECT_EQ(model.roughness, 0.25);
   EXPECT_EQ(model.metallic, 1);
@@ -102,7 +108,7 @@ TEST_F(ObjTextures, PhysicalMaterialsArePrincipled) {
   const Read maps = read("map_Kd a.tga\nmap_Pr a.tga\nmap_Pm -imfchan b a.tga", picture(true));
   EXPECT_EQ(maps.warnings(), "");
   expectUpright(maps, "color");
-  EXPECT_EQ(std::get<Principled>(maps.material().model).roughness, 1) << "where only the picture says it";
+  EXPECT_EQ(maps.material().model.as<Principled>()->roughness, 1) << "where only the picture says it";
   expectUpright(maps, "roughness");
   EXPECT_EQ(maps.at("metallic", kBottomLeft), Color(1));
   EXPECT_EQ(maps.at("opacity", kTopRight), Color(0)) << "its alpha";
@@ -112,11 +118,11 @@ TEST_F(ObjTextures, PhysicalMaterialsArePrincipled) {
       << "it has a roughness, and no exponent";
   EXPECT_EQ(read("Ns 30\nmap_Ns a.tga").warnings(), "");
   const Read pane = read("illum 6\nTf 1 0.5 1\nNi 1.45\nPr 0.25");
-  const auto& glass = std::get<RoughGlass>(pane.material().model);
+  const auto& glass = *pane.material().model.as<RoughGlass>();
   EXPECT_EQ(glass.color, Color(1, 0.5, 1)) << "what says glass is not lost beside a roughness";
   EXPECT_EQ(glass.index, Real(1.45f));
   EXPECT_EQ(glass.roughness, 0.25);
-  EXPECT_TRUE(std::holds_alternative<Principled>(read("illum 6\nTf 1 1 1\nPr 0.25\nPm 1").material().model));
+  EXPECT_TRUE(read("illum 6\nTf 1 1 1\nPr 0.25\nPm 1").material().model.is<Principled>());
 }
 
 // --- PLY ----------------------------------------------------------------------------------------------
@@ -259,6 +265,12 @@ TEST(PictureKinds, FollowFromTheHead) {
   EXPECT_TRUE(kindOfPicture(png + std::string("\x8\x3\0\0\0", 5) + "crc." + chunk).transparent);
   for (std::size_t length : {0, 3, 17})
     EXPECT_FALSE(kindOfPicture(picture(true).substr(0, length)).transparent);
+  for (const bool lossless : {true, false})
+    for (const int channels : {3, 4}) {
+      Raster raster(2, 2, channels, 255);
+      raster.samples = std::vector<std::uint8_t>(raster.count(), 100);
+      EXPECT_EQ(kindOfPicture(test::webpOf(raster, lossless)).transparent, channels == 4);
+    }
 }
 
 }  // namespace

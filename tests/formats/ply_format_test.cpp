@@ -129,7 +129,7 @@ end_header
   ASSERT_EQ(mesh.materials.size(), 3u);
   EXPECT_EQ(mesh.materials[0], mesh.materials[2]);
   const auto diffuse = [&](std::size_t point) {
-    return std::get<Phong>(scene.materials.at(mesh.materials[point]).model).diffuse;
+    return scene.materials.at(mesh.materials[point]).model.as<Phong>()->diffuse;
   };
   EXPECT_EQ(diffuse(0), Color(1, 0, 0));
   EXPECT_EQ(diffuse(1), Color(0, 1, 0));

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "gltf_square.h"
+#include "packed_gltf.h"
 #include "scene_probes.h"
+#include "support/webp.h"
 
 namespace trace::probes_gltf_test {
 namespace {
@@ -248,6 +250,72 @@ TEST(Probes, OfGltf) {
 
 // --- extensions --------------------------------------------------------------------------------------------
 
+/// Compressed meshes; of what a mode or a filter packs, other values make another picture.
+void addPacked(Probes& p) {
+  const test::Patch patch, larger(6);
+  const auto draco = [](const test::Patch& of) { return test::dracoPatch(of, test::dracoOf(of, true, 0)); };
+  p.add("KHR_draco_mesh_compression", draco(larger), draco(patch));
+  // With a second mesh, of one triangle.
+  const auto besideATriangle = [](const Square& mesh) {
+    Square both = mesh;
+    both.set("/nodes/1", {{"mesh", 1}}).set("/scenes/0/nodes", {0, 1});
+    const std::size_t points = both.root["accessors"].size();
+    both.floats({0, 0, 0, 1, 0, 0, 1, 1, 0}, 3);
+    both.set("/meshes/1", {{"primitives", {{{"attributes", {{"POSITION", points}}}}}}});
+    return both;
+  };
+  test::Dracoed half = test::dracoOf(patch, true, 0);
+  half.bytes.resize(half.bytes.size() / 2);
+  p.add("KHR_draco_mesh_compression that is damaged", besideATriangle(draco(patch)),
+        besideATriangle(test::dracoPatch(patch, half)), "it is left out");
+
+  const auto meshopt = [](const test::Patch& of, const char* mode) {
+    return test::meshoptPatch(of, mode, 2);
+  };
+  const std::string name = "EXT_meshopt_compression ";
+  p.add(name + "mode ATTRIBUTES", meshopt(larger, "TRIANGLES"), meshopt(patch, "TRIANGLES"));
+  test::Patch turned = patch;
+  std::swap(turned.corners[0], turned.corners[1]);
+  for (const char* mode : {"TRIANGLES", "INDICES"})
+    p.add(name + "mode " + mode, meshopt(turned, mode), meshopt(patch, mode));
+  /// A new view of the same values, with a filter, in place of that of the attribute.
+  const auto filtered = [&](const char* attribute, const std::string& bytes, std::size_t stride,
+                            const char* filter, json accessor) {
+    Square square = meshopt(patch, "TRIANGLES");
+    accessor["bufferView"] = test::addMeshoptView(square, test::meshoptVertices(bytes, stride), "ATTRIBUTES",
+                                                  bytes.size() / stride, stride, filter);
+    accessor["count"] = bytes.size() / stride;
+    test::accessorOf(square, attribute).update(accessor);
+    return test::withFallback(square);
+  };
+  const std::string octahedral(4 * patch.points(), '\x7f'), exponents(8 * patch.points(), '\1');
+  const json bytes = {{"componentType", 5120}, {"normalized", true}, {"type", "VEC3"}};
+  p.add(name + "filter OCTAHEDRAL", filtered("NORMAL", octahedral, 4, "NONE", bytes),
+        filtered("NORMAL", octahedral, 4, "OCTAHEDRAL", bytes));
+  p.add(name + "filter EXPONENTIAL", filtered("TEXCOORD_0", exponents, 8, "NONE", json::object()),
+        filtered("TEXCOORD_0", exponents, 8, "EXPONENTIAL", json::object()));
+  const auto copies = [&](const char* filter) {
+    Square square;
+    const std::string turn("\0\0\0\0\0\0\xff\x3f", 8);  // no turn, once the largest part is found
+    const std::size_t view =
+        test::addMeshoptView(square, test::meshoptVertices(turn, 8), "ATTRIBUTES", 1, 8, filter);
+    square.set("/accessors/4", {{"bufferView", view},
+                                {"componentType", 5122},
+                                {"normalized", true},
+                                {"count", 1},
+                                {"type", "VEC4"}});
+    square.set("/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/ROTATION", 4);
+    return test::withFallback(square);
+  };
+  p.add(name + "filter QUATERNION", copies("NONE"), copies("QUATERNION"));
+  Square broken = meshopt(patch, "TRIANGLES");
+  broken = besideATriangle(broken);
+  test::withFallback(broken);
+  Square cut = broken;
+  cut.set("/bufferViews/2/extensions/EXT_meshopt_compression/byteLength", 9);
+  p.add(name + "that is damaged", broken, cut, "are left out");
+}
+
 TEST(Probes, OfGltfExtensions) {
   Probes p;
   const json texture = {{"index", 0}};
@@ -347,18 +415,22 @@ TEST(Probes, OfGltfExtensions) {
         Square(textured).attribute("TEXCOORD_1", {0, 0, 2, 0, 2, 2, 0, 2}, 2));
 
   // A picture that nothing else names: the magenta checker and a warning.
-  for (const char* other :
-       {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"}) {
+  for (const char* other : {"KHR_texture_basisu", "EXT_texture_avif", "MSFT_texture_dds"}) {
     Square square = textured;
     square.set("/images/0/uri", "data:image/ktx2;base64,AAAA")
         .set("/textures/0", {{"extensions", {{other, {{"source", 0}}}}}});
     square.root["extensionsUsed"].push_back(other);
     p.add(other, textured, square, "images[0]");
   }
-  p.set("KHR_draco_mesh_compression", "/extensionsRequired", {"KHR_draco_mesh_compression"},
-        "KHR_draco_mesh_compression");
-  p.set("EXT_meshopt_compression", "/extensionsRequired", {"EXT_meshopt_compression"},
-        "EXT_meshopt_compression");
+  // One that the texture names beside a picture that every program reads.
+  Raster green(2, 2, 3, 255);
+  green.samples = std::vector<std::uint8_t>{0, 255, 0, 0, 255, 0, 0, 255, 0, 0, 255, 0};
+  Square webp = textured;
+  webp.set("/images/2", {{"uri", "data:image/webp;base64," + toBase64(test::webpOf(green))}})
+      .set("/extensionsRequired", {"EXT_texture_webp"});
+  p.set("EXT_texture_webp", "/textures/0/extensions", {{"EXT_texture_webp", {{"source", 2}}}}, "", webp);
+
+  addPacked(p);
   Square copied;
   copied.set("/extensionsUsed", {"EXT_mesh_gpu_instancing"});
   const std::string copies = "/nodes/0/extensions/EXT_mesh_gpu_instancing/attributes/";

@@ -15,6 +15,7 @@
 #include "image/codec_parts.h"
 #include "probes.h"
 #include "support/paths.h"
+#include "support/webp.h"
 
 namespace trace::probes_picture_test {
 namespace {
@@ -30,7 +31,7 @@ Outcome readProbe(const std::string& bytes) {
             outcome.seen += " " + std::to_string(static_cast<double>(sample) / raster.most);
         },
         raster.samples);
-    if (const std::string remark = pictureRemark(bytes); !remark.empty()) outcome.told.push_back(remark);
+    if (const std::string remark = pictureRemark(bytes, "a"); !remark.empty()) outcome.told.push_back(remark);
   } catch (const Error& error) {
     outcome.error = error.messages().front().what;
   }
@@ -136,8 +137,9 @@ TEST(Probes, OfPng) {
        chunk("tEXt", "tEXt", raw("Title\0a quad")),
        chunk("zTXt", "zTXt", raw("Title\0\0") + packed("a quad")),
        chunk("iTXt", "iTXt", raw("Title\0\0\0\0\0a quad"))});
-  EXPECT_EQ(pictureRemark(png(pngChunk("iCCP", raw("a\0\0") + packed("the profile sRGB IEC61966-2.1")))), "");
-  EXPECT_EQ(pictureRemark(png(pngChunk("gAMA", big(45455)))), "");
+  EXPECT_EQ(pictureRemark(png(pngChunk("iCCP", raw("a\0\0") + packed("the profile sRGB IEC61966-2.1"))), "a"),
+            "");
+  EXPECT_EQ(pictureRemark(png(pngChunk("gAMA", big(45455))), "a"), "");
 }
 
 // --- JPEG --------------------------------------------------------------------------------------------------
@@ -474,11 +476,16 @@ TEST(Probes, OfExr) {
   auto chroma = std::vector<P::Layer>{{"BY", half}, {"RY", half}, {"Y", {0, 1, 0, 1}}};
   P upward;
   upward.lineOrder = 1;
+  const auto space =
+      std::vector<P::Layer>{{"X", layers[2].values}, {"Y", layers[1].values}, {"Z", layers[0].values}};
   expectPictures(knownExrFields(),
                  {{"R, G, B", grey.bytes(), plain},
                   {"A", plain, P{.layers = withAlpha}.bytes()},
                   {"Y", plain, grey.bytes()},
                   {"Y, RY, BY", grey.bytes(), P{.layers = chroma}.bytes()},
+                  {"X, Y, Z", grey.bytes(), P{.layers = space}.bytes(), "", plain},
+                  {"U, V", grey.bytes(), P{.layers = {{"U", {1, 0, 0, 1}}, {"V", {0, 1, 0, 1}}}}.bytes(), "",
+                   P{.layers = {{"G", {0, 1, 0, 1}}, {"R", {1, 0, 0, 1}}}}.bytes()},
                   {"one channel", plain, P{.layers = {{"G", {0, 1, 0, 1}}}}.bytes(), "", grey.bytes()},
                   {"other channels", plain, P{.layers = withDepth}.bytes(), "channels that are not shown: Z"},
                   {"layers", plain, P{.layers = withLayer}.bytes(), "layers are not shown"},
@@ -502,6 +509,39 @@ TEST(Probes, OfExr) {
                   {"envmap", plain, more("envmap", "envmap", raw("\1")), "sides of its cube"},
                   {"wrapmodes", plain, more("wrapmodes", "string", "clamp"), "wrap modes"},
                   {"other attributes", plain, more("owner", "string", "somebody")}});
+}
+
+// --- WebP --------------------------------------------------------------------------------------------------
+
+TEST(Probes, OfWebp) {
+  using test::webpAnimation, test::webpChunk, test::webpFile, test::webpFrame, test::webpHead, test::webpOf;
+  const auto raster = [](int channels, std::vector<std::uint8_t> samples) {
+    Raster quad(2, 2, channels, 255);
+    quad.samples = std::move(samples);
+    return quad;
+  };
+  const Raster quad = raster(3, {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255});
+  const Raster half = raster(4, {255, 0, 0, 128, 0, 255, 0, 128, 0, 0, 255, 0, 255, 255, 255, 255});
+  const Raster upset = raster(3, {0, 255, 0, 255, 0, 0, 255, 255, 255, 0, 0, 255});
+  const Raster dark = raster(3, std::vector<std::uint8_t>(12, 9));
+  const std::string plain = webpOf(quad), lossy = webpOf(quad, false), chunks = test::chunksOf(plain);
+  const auto extended = [&](int flags, const std::string& before, const std::string& after) {
+    return webpFile(webpHead(flags, 2, 2) + before + chunks + after);
+  };
+  expectPictures(
+      knownWebpFields(),
+      {{"VP8, with loss", webpOf(dark, false), lossy},
+       {"VP8L, without loss", webpOf(dark), plain, "", png("")},
+       {"alpha of VP8L", plain, webpOf(half)},
+       {"ALPH", lossy, webpOf(half, false)},
+       {"ANIM, ANMF", plain, webpAnimation(2, 2, webpFrame(0, 0, quad)), "of an animation"},
+       {"EXIF: orientation", plain, extended(8, "", webpChunk("EXIF", exif(2))), "", webpOf(upset)},
+       {"ICCP", plain, extended(32, webpChunk("ICCP", "a profile of wide colours"), ""), "ICC"},
+       {"XMP", plain, extended(4, "", webpChunk("XMP ", "<x:xmpmeta/>"))},
+       {"other chunks", plain, extended(0, "", webpChunk("mine", "odd"))}});
+  const Outcome named = readProbe(extended(8, "", webpChunk("EXIF", raw("Exif\0\0") + exif(2))));
+  EXPECT_EQ(named.seen, readProbe(webpOf(upset)).seen) << "as some programs write it";
+  EXPECT_EQ(pictureRemark(extended(32, webpChunk("ICCP", "the profile sRGB IEC61966-2.1"), ""), "a"), "");
 }
 
 }  // namespace

@@ -82,7 +82,7 @@ TEST(RayErrors, NamePlaceExpectedAndFound) {
        "2:14: material: expected a field, as in diffuse = (1, 1, 1), found \"gennormals\""},
       // camera
       {"camera { viewdir = (0, 0, -1); }",
-       "2:10: viewdir: expected updir as well [add what is up, as in updir = (0, 1, 0)]"},
+       "2:10: viewdir: expected updir as well [add the up direction, as in updir = (0, 1, 0)]"},
       {"camera { updir = (0, 0, -1); }", "2:10: updir: expected viewdir as well"},
       {"camera { viewdir = (0, 0, 0); updir = (0, 1, 0); }",
        "2:20: viewdir: expected a direction, found (0, 0, 0)"},

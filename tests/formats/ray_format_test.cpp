@@ -96,7 +96,7 @@ std::string other(Operands& value) { return value = Operands({{"", Sphere{}, {},
 TEST(RayFormat, ReadsEveryFieldOfEveryShape) {
   const ReadScope allowed({testing::TempDir()});
   for (const ShapeType& type : shapeTypes())
-    for (const AnyField& field : fieldsOf(Shape(type))) {
+    for (const AnyField& field : Shape(type).fields()) {
       Shape expected(type);
       std::string text = std::string(type.keyword) + "{" + std::string(field.keyword) + "=";
       editEachField(expected, [&](const AnyField& f, auto& value) {
@@ -116,7 +116,7 @@ TEST(RayFormat, ReadsSolidsOfSolids) {
   const auto& group = objects.list()[1].shape.as<Union>()->objects.list();
   ASSERT_EQ(group.size(), 2u);
   const auto color = [&](const Operand& o) {
-    return std::get<Phong>(loaded.scene.materials.at(o.material).model).diffuse;
+    return loaded.scene.materials.at(o.material).model.as<Phong>()->diffuse;
   };
   EXPECT_EQ(color(objects.list()[0]), Color(1, 0, 0));
   EXPECT_EQ(color(group[1]), Color(0, 1, 0));
@@ -139,7 +139,7 @@ TEST(RayFormat, MakesObjectsOfParticlesAtTheFramesTime) {
   ASSERT_EQ(scene.objects.size(), 11u);
   EXPECT_TRUE(scene.objects[0].shape.is<Cube>());
   expectNear(scene.objects[1].worldFromObject * Vec3{0.5, 0, 0}, {0.901 + 0.25, 0, 1});
-  EXPECT_EQ(std::get<Phong>(scene.materials.at(scene.objects[10].material).model).diffuse, Color(0.5));
+  EXPECT_EQ(scene.materials.at(scene.objects[10].material).model.as<Phong>()->diffuse, Color(0.5));
   EXPECT_TRUE(readRay("test.ray", text, messages, -1).objects.empty());
   EXPECT_EQ(onlyShape<Sphere>("particles { rate = 1; duration = 0.5; }"), Sphere{});
   EXPECT_EQ(errorsOf("particles { rate = 1e9; begin = -5; }"),
@@ -367,6 +367,10 @@ TEST(RayFormat, KeepsMapsByField) {
   EXPECT_EQ(warningsOf(text),
             "2:24: the textures \"a.bmp\", \"c.png\" and \"b.png\" cannot be read: \"a.bmp\": No such "
             "file or directory [a checker of magenta and black shows instead]");
+  EXPECT_EQ(
+      warningsOf("sphere { material = { diffuse = \"red\"; } }"),
+      "2:33: the texture \"red\" cannot be read: No such file or directory [a checker of magenta and black "
+      "shows instead; a colour is (red, green, blue), each from 0 to 1]");
 }
 
 // --- camera -------------------------------------------------------------------------------------------
@@ -536,10 +540,10 @@ TEST(RayFormat, VertexMaterialsInheritFromTheMeshSoFar) {
   const auto& materials = scene.objects[0].shape.as<Mesh>()->data->materials;
   ASSERT_EQ(materials.size(), 3u);
   EXPECT_EQ(materials[0], materials[1]);
-  const Phong& first = std::get<Phong>(scene.materials[materials[0]].model);
+  const Phong& first = *scene.materials[materials[0]].model.as<Phong>();
   EXPECT_EQ(first.diffuse, Color(1, 0, 0));
   EXPECT_EQ(first.ambient, Color(0.5));
-  EXPECT_EQ(std::get<Phong>(scene.materials[materials[2]].model).emissive, Color(1));
+  EXPECT_EQ(scene.materials[materials[2]].model.as<Phong>()->emissive, Color(1));
   EXPECT_EQ(phongOf(scene, 0).diffuse, Color(0, 1, 0));
 }
 

@@ -73,7 +73,7 @@ S onlyShape(std::string_view text) {
 }
 
 inline const Phong& phongOf(const Scene& scene, size_t object) {
-  return std::get<Phong>(scene.materials.at(scene.objects.at(object).material).model);
+  return *scene.materials.at(scene.objects.at(object).material).model.as<Phong>();
 }
 
 }  // namespace trace

@@ -47,6 +47,12 @@ void expectSame(std::string_view language, std::string_view plain) {
     EXPECT_EQ(a.choices[i].value, b.choices[i].value) << language;
 }
 
+TEST(RayLanguage, NamesHaveLettersOfEveryAlphabet) {
+  EXPECT_EQ(origin("let gr\u00f6\u00dfe = 2\nlet \u7403(\u03c1) = 3 * "
+                   "\u03c1\ntranslate(\u7403(gr\u00f6\u00dfe), 0, 0) { sphere { } }"),
+            (Vec3{6, 0, 0}));
+}
+
 TEST(RayLanguage, ComputesByPrecedence) {
   const std::pair<const char*, Real> rows[]{{"1 + 2 * 3", 7},
                                             {"(1 + 2) * 3", 9},

@@ -4,6 +4,10 @@
 #include "formats/ray/ray_writer.h"
 #include "formats/ray_helpers.h"
 #include "formats/ray_patch_helpers.h"
+#include "shading/materials/coated.h"
+#include "shading/materials/conductor.h"
+#include "shading/materials/lambert.h"
+#include "shading/materials/oren_nayar.h"
 
 namespace trace::ray_models_test {
 namespace {
@@ -13,7 +17,7 @@ const Material& materialOf(const Scene& scene, std::size_t object) {
 }
 template <class Model>
 const Model& modelOf(const Scene& scene, std::size_t object) {
-  return std::get<Model>(materialOf(scene, object).model);
+  return *materialOf(scene, object).model.as<Model>();
 }
 
 TEST(RayModels, AreChosenByName) {
@@ -82,7 +86,7 @@ TEST(RayModels, HaveHoles) {
   EXPECT_EQ(material(0).opacity, 0.5);
   EXPECT_EQ(material(1).opacity, 0.75);
   ASSERT_TRUE(textureOf(material(1).textures, kOpacity));
-  EXPECT_TRUE(std::holds_alternative<Conductor>(material(1).model));
+  EXPECT_TRUE(material(1).model.is<Conductor>());
   EXPECT_EQ(material(2).opacity, 1);
   EXPECT_EQ(material(3).opacity, 1) << "water of the library has no holes";
   Messages messages;
@@ -107,7 +111,7 @@ TEST(RayModels, HolesAreEditedInTheirText) {
 
 TEST(RayModels, AreEditedInTheirText) {
   const std::string text = "sphere { material = { model = oren_nayar; roughness = 0.25; } }\n";
-  EXPECT_EQ(after(text, [](Scene& s) { std::get<OrenNayar>(s.materials[0].model).roughness = 0.75; }),
+  EXPECT_EQ(after(text, [](Scene& s) { s.materials[0].model.edit<OrenNayar>()->roughness = 0.75; }),
             "sphere { material = { model = oren_nayar; roughness = 0.75; } }\n");
   EXPECT_EQ(after(text, [](Scene& s) { s.materials[0] = withModel(s.materials[0], Coated{}); }),
             "sphere { material = { model = coated; roughness = 0.25; } }\n");

@@ -151,7 +151,7 @@ TEST(RayPatchOperands, AMaterialThatTheyShareIsChangedOnce) {
   EXPECT_EQ(
       after(kDrilled,
             [](Scene& s) {
-              std::get_if<Phong>(&s.materials[0].model)->diffuse = Color(0.25);
+              s.materials[0].model.edit<Phong>()->diffuse = Color(0.25);
               holes([](auto& list) { list[0].wholeFromOperand.offset.x = 1.25; })(s);
             }),
       replaced(replaced(kDrilled, "translate(1,", "translate(1.25,"), "diffuse = 0.5", "diffuse = 0.25"));

@@ -15,13 +15,15 @@
 #include "formats/ray_patch_helpers.h"
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/sphere.h"
+#include "shading/textures/brick.h"
+#include "shading/textures/checker.h"
+#include "shading/textures/noise.h"
+#include "shading/textures/wood.h"
 
 namespace trace::ray_patch_test {
 namespace {
 
-Phong& phong(Scene& scene, std::size_t material) {
-  return *std::get_if<Phong>(&scene.materials.at(material).model);
-}
+Phong& phong(Scene& scene, std::size_t material) { return *scene.materials.at(material).model.edit<Phong>(); }
 template <class S>
 S& shape(Scene& scene, std::size_t object) {
   return *scene.objects.at(object).shape.edit<S>();
@@ -455,7 +457,7 @@ TEST(RayPatch, AMaterialOfCopiesIsChangedWhereItIsSaid) {
       library, "wood",
       [](Scene& s) {
         for (Material& m : s.materials)
-          if (m.name == "wood") std::get_if<Phong>(&m.model)->diffuse.r = 0.5;
+          if (m.name == "wood") m.model.edit<Phong>()->diffuse.r = 0.5;
       },
       1);
 }
@@ -542,15 +544,14 @@ sphere { }
     std::string changed = text;
     return changed.replace(changed.find(from), from.size(), to);
   };
-  EXPECT_EQ(
-      after(text, textureEdit("diffuse", [](TextureNode& n) { std::get<Brick>(n.model).mortar = 0.05; })),
-      with("0.035", "0.05"));
+  EXPECT_EQ(after(text, textureEdit("diffuse", [](TextureNode& n) { n.model.edit<Brick>()->mortar = 0.05; })),
+            with("0.035", "0.05"));
   EXPECT_EQ(after(text, textureEdit("diffuse", [](TextureNode& n) { n.placement.rotate.y = 30; })),
             with("(0.5, 0.5, 0.5)); }", "(0.5, 0.5, 0.5)); rotate = (0, 30, 0); }"));
   EXPECT_EQ(after(text, textureEdit("diffuse",
                                     [](TextureNode& n) {
                                       TextureNode noise = **textureOf(n.inputs, "a");
-                                      std::get<Noise>(noise.model).octaves = 2;
+                                      noise.model.edit<Noise>()->octaves = 2;
                                       noise.placement.scale = {1, 1, 1};
                                       setTexture(n.inputs, "a", noise);
                                     })),
@@ -558,7 +559,7 @@ sphere { }
                 .replace(with("octaves = 4", "octaves = 2").find("(0.35, 0.2"), 17, "(1, 1, 1)"));
   EXPECT_EQ(after(text, textureEdit("diffuse",
                                     [](TextureNode& n) {
-                                      std::get<Brick>(n.model).b = Color(0.25);
+                                      n.model.edit<Brick>()->b = Color(0.25);
                                       setTexture(n.inputs, "b",
                                                  TextureNode{.model = Checker{.a = Color(0.1)}});
                                     })),
@@ -568,7 +569,7 @@ sphere { }
             text.substr(0, text.find("a = noise")));
   EXPECT_EQ(after(text,
                   [](Scene& s) {
-                    std::get<Phong>(s.materials.at(s.objects[0].material).model).diffuse = Color(0.5);
+                    s.materials.at(s.objects[0].material).model.edit<Phong>()->diffuse = Color(0.5);
                   }),
             with("diffuse = brick", "diffuse = texture(brick")
                 .replace(with("diffuse = brick", "diffuse = texture(brick").rfind("; }; }") + 3, 0,
@@ -584,7 +585,7 @@ box { material = { diffuse = texture("oak"); } }
   Scene wanted = *read.scene;
   textureEdit("diffuse", [](TextureNode& n) {
     n.name.clear();
-    std::get<Wood>(n.model).frequency = 7;
+    n.model.edit<Wood>()->frequency = 7;
   })(wanted);
   const Saved result = saved(read, wanted);
   EXPECT_TRUE(result.messages.empty()) << result.messages.front().what;

@@ -66,6 +66,12 @@ TEST(RaySyntax, IsLenientAboutSeparatorsCommentsAndLineEnds) {
     EXPECT_EQ(outline(std::string_view(source)), expected) << source;
 }
 
+TEST(RaySyntax, TakesLettersOfEveryAlphabet) {
+  EXPECT_EQ(outline(std::string_view("K\u00e4se{gr\u00f6\u00dfe-2=\u043a\u0438\u0442}")),
+            "{K\u00e4se:{gr\u00f6\u00dfe-2=\u043a\u0438\u0442}}");
+  EXPECT_EQ(outline(std::string_view("\u7403{\u534a\u5f84=1}")), "{\u7403:{\u534a\u5f84=1}}");
+}
+
 TEST(RaySyntax, TakesNumbersInEveryNotation) {
   for (const auto& [source, value] : {std::pair{"1", 1.0},
                                       {"-.3", -0.3},
@@ -95,8 +101,22 @@ TEST(RaySyntax, TellsWhatIsWrongAndWhere) {
       {"a = ;", "1:5: expected a value after \"=\", found \";\""},
       {"a = }", "1:5: expected a value after \"=\", found \"}\""},
       {"a =", "1:4: expected a value after \"=\", found the end of the file"},
-      {"a = = 1", "1:5: expected a value after \"=\", found \"=\""},
-      {"= 1", "1:1: expected an object, a field or a value, found \"=\""},
+      {"a = = 1",
+       "1:5: expected a value after \"=\", found \"=\" [== compares two values; name = value is a field]"},
+      {"= 1",
+       "1:1: expected an object, a field or a value, found \"=\" [== compares two values; name = value is a "
+       "field]"},
+      {"if (1 = 1) { }",
+       "1:7: expected an object, a field or a value, found \"=\" [== compares two values; name = value is a "
+       "field]"},
+      {"a = \u201cb.png\u201d",
+       "1:5: expected a value after \"=\", found \"\u201c\" [text stands in straight quotation marks: "
+       "\"text\"]"},
+      {"a =\u00a01",
+       "1:4: expected a value after \"=\", found \"\u00a0\" [the blank there is a no-break space; a plain "
+       "one is "
+       "wanted]"},
+      {"a = \u00d7", "1:5: expected a value after \"=\", found \"\u00d7\""},
       {"a = @", "1:5: expected a value after \"=\", found \"@\""},
       {"  \x80", "1:3: expected an object, a field or a value, found byte 0x80"},
       {"a = \"foo\nb", "1:5: expected a closing quote on the same line, found the end of the line"},

@@ -7,6 +7,7 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/torus.h"
 #include "ray_helpers.h"
+#include "shading/texture_list.h"
 
 namespace trace::ray_texture_test {
 namespace {
@@ -49,7 +50,7 @@ requires std::is_enum_v<Enum> Enum other(Enum value) {
 
 // Every field of every texture, and a placement.
 TEST(RayTexture, OfEveryKindIsWrittenAsItIsRead) {
-  forEachType<TextureModel>([](auto* type) {
+  forEachType<TextureList>([](auto* type) {
     using Model = std::remove_pointer_t<decltype(type)>;
     SCOPED_TRACE(std::string(Model::kKeyword));
     Model model;
@@ -71,8 +72,8 @@ TEST(RayTexture, ReadsTheMarbleOfStudents) {
       "2);"
       " depth = 3; };");
   const TextureNode& node = *textures.at(0).texture;
-  EXPECT_EQ(std::get<Marble>(node.model).octaves, 3);
-  EXPECT_EQ(std::get<Marble>(node.model).grain, (Vec3{1, 1, 2}));
+  EXPECT_EQ(node.model.as<Marble>()->octaves, 3);
+  EXPECT_EQ(node.model.as<Marble>()->grain, (Vec3{1, 1, 2}));
   const auto at = [&](Real turns) {
     TexturePlace place;
     place.point = {turns * 2 * kPi / 25, 3, 4};
@@ -149,7 +150,7 @@ TEST(RayTexture, ReadsTheNormalMapsAndCoordinatesOfStudents) {
                           .scene;
   for (const std::size_t i : {0u, 1u}) {
     const Material& material = scene.materials.at(scene.objects.at(i).material);
-    const auto& map = std::get<ImageMap>(material.textures.at(0).texture->model);
+    const auto& map = *material.textures.at(0).texture->model.as<ImageMap>();
     EXPECT_EQ(material.textures.at(0).field, "bump");
     EXPECT_EQ(map.relief, Relief::normals);
     EXPECT_EQ(map.file.file, "b.png");
@@ -194,7 +195,7 @@ TEST(RayTexture, HasANameForOthers) {
   EXPECT_EQ(textures(0).at(0).texture->name, "floor");
   const TextureNode& outer = *textures(1).at(0).texture;
   EXPECT_EQ(outer.inputs.at(0).texture, textures(0).at(0).texture);
-  EXPECT_EQ(std::get<Checker>(outer.model).a, Color(0.5));
+  EXPECT_EQ(outer.model.as<Checker>()->a, Color(0.5));
   EXPECT_EQ(outer.placement.scale, (Vec3{2, 2, 2}));
 }
 

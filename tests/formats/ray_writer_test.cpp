@@ -13,6 +13,7 @@
 #include "geometry/shapes/height_field.h"
 #include "geometry/shapes/sphere.h"
 #include "mesh_helpers.h"
+#include "shading/textures/image_map.h"
 #include "support/materials.h"
 #include "support/paths.h"
 #include "support/shapes.h"
@@ -237,7 +238,7 @@ TEST(RayWriter, AMirrorThatFollowsAHighlightIsReadWithoutAWarning) {
   const Scene scene = again(R"(SBT-raytracer 1.0
 material = { reflective = (0.2, 0.2, 0.2); }
 sphere { material = { specular = (0.1, 0.1, 0.1); } })");
-  ASSERT_TRUE(std::get<Phong>(scene.materials.at(scene.objects.at(0).material).model).mirrorsSpecular);
+  ASSERT_TRUE(scene.materials.at(scene.objects.at(0).material).model.as<Phong>()->mirrorsSpecular);
   const std::string text = written(scene);
   expectRoundTrip(scene, "mirror");
   EXPECT_EQ(messagesOf(text), std::vector<Message>{}) << text;
@@ -255,7 +256,7 @@ TEST(RayWriter, FilesAreNamedAsTheyAreOrNotAtAll) {
   const Scene back = again(written(scene));
   const Texture* texture = textureOf(back.materials.at(back.objects.at(0).material).textures, "diffuse");
   ASSERT_NE(texture, nullptr);
-  EXPECT_EQ(std::get<ImageMap>((*texture)->model).file.file, "a\tb\\'.png");
+  EXPECT_EQ((*texture)->model.as<ImageMap>()->file.file, "a\tb\\'.png");
 }
 
 TEST(RayWriter, NamesWithOddLettersLoseThem) {

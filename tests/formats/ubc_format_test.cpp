@@ -8,7 +8,7 @@ namespace trace::ubc_format_test {
 namespace {
 
 const Phong& phongAt(const Scene& scene, std::size_t object) {
-  return std::get<Phong>(scene.materials.at(scene.objects.at(object).material).model);
+  return *scene.materials.at(scene.objects.at(object).material).model.as<Phong>();
 }
 std::string choiceOf(const Scene& scene, std::string_view option) {
   std::string value;

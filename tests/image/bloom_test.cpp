@@ -106,7 +106,8 @@ TEST(LastSteps, EachHearsThatTheTimeIsOverAt4000Pixels) {
   expectHears("dither", [&] { (void)developed(large, {.dither = true}); });
   expectHears("stereo", [&] { (void)anaglyph(large, kDubois); });
   for (const PictureFormat& format : pictureFormats())
-    expectHears(std::string(format.name).c_str(), [&] { (void)encodePicture(format, large); });
+    if (format.encode)
+      expectHears(std::string(format.name).c_str(), [&] { (void)encodePicture(format, large); });
 }
 
 TEST(LastSteps, TakingNoiseOutHearsIt) {
@@ -133,6 +134,7 @@ TEST(LastSteps, TheFilmHearsItWhenItIsAsked) {
 TEST(LastSteps, EachLooksMoreOftenAtALargerPicture) {
   const Picture small(400, 100), large(400, 800);
   for (const PictureFormat& format : pictureFormats()) {
+    if (!format.encode) continue;
     const auto looks = [&](const Picture& p) { return looksOf([&] { (void)encodePicture(format, p); }); };
     EXPECT_GT(looks(large), 4 * looks(small)) << format.name;
   }

@@ -19,6 +19,7 @@
 #include "image/compare.h"
 #include "support/folder.h"
 #include "support/paths.h"
+#include "support/webp.h"
 
 #if defined(__GLIBC__)
 #include <malloc.h>
@@ -39,6 +40,19 @@ const PictureFormat& formatNamed(std::string_view name) {
   for (const PictureFormat& format : pictureFormats())
     if (format.name == name) return format;
   throw std::runtime_error("no such format");
+}
+
+std::vector<PictureFormat> writtenFormats() {
+  std::vector<PictureFormat> all;
+  for (const PictureFormat& format : pictureFormats())
+    if (format.encode) all.push_back(format);
+  return all;
+}
+
+/// A file of any format, also of one that is only read.
+std::string fileOf(const PictureFormat& format, const Picture& picture, const Metadata& metadata = {}) {
+  return format.encode ? encodePicture(format, picture, Rounding::truncate, metadata)
+                       : test::webpOf(picture, Rounding::truncate);
 }
 
 std::size_t files(const test::Folder& folder) {
@@ -82,7 +96,7 @@ constexpr int kSizes[][2] = {{1, 1}, {3, 2}, {17, 5}, {2, 9}, {300, 3}};
 
 TEST(Codec, EveryFormatComesBack) {
   const test::Folder folder;
-  for (const PictureFormat& format : pictureFormats())
+  for (const PictureFormat& format : writtenFormats())
     for (const auto& [width, height] : kSizes) {
       SCOPED_TRACE(std::string(format.name) + " " + std::to_string(width) + "x" + std::to_string(height));
       const bool lossy = format.name == "JPEG";
@@ -98,11 +112,11 @@ TEST(Codec, EveryFormatComesBack) {
         EXPECT_LE(measured, format.lossless ? 0 : lossy ? 4 : 1);
       }
     }
-  EXPECT_EQ(files(folder), pictureFormats().size());  // no temporary file left
+  EXPECT_EQ(files(folder), writtenFormats().size());  // no temporary file left
 }
 
 TEST(Codec, BrightValuesComeBackWhereTheFormatKeepsThem) {
-  for (const PictureFormat& format : pictureFormats()) {
+  for (const PictureFormat& format : writtenFormats()) {
     if (!format.keepsBright) continue;
     SCOPED_TRACE(format.name);
     const Picture picture = brightPicture(17, 5);
@@ -136,7 +150,7 @@ TEST(Codec, NumbersThatAreNoneAreWrittenByEveryFormat) {
   Picture picture(2, 1);
   picture.at(0, 0) = {std::nan(""), kInfinity, -kInfinity};
   picture.at(1, 0) = {-1, 1e300, 1e-300};
-  for (const PictureFormat& format : pictureFormats()) {
+  for (const PictureFormat& format : writtenFormats()) {
     SCOPED_TRACE(format.name);
     const Picture back = decodePicture(encodePicture(format, picture), "memory");
     if (format.name == "HDR") {
@@ -156,7 +170,7 @@ TEST(Codec, NumbersThatAreNoneAreWrittenByEveryFormat) {
 TEST(Codec, LineFeedLevelsSurvive) {
   const test::Folder folder;
   const Bytes bytes{3, 1, {0x0A, 0x0A, 0x0A, 0x0D, 0x0A, 0x1A, 0x0A, 0x0D, 0x00}};
-  for (const PictureFormat& format : pictureFormats()) {
+  for (const PictureFormat& format : writtenFormats()) {
     if (!format.lossless) continue;
     const std::string path = folder / ("feed" + std::string(format.suffixes[0]));
     writePicture(path, fromBytes(bytes));
@@ -293,7 +307,7 @@ TEST(CodecMetadata, ComesBack) {
   const Metadata words{
       {"Scene", "caf\xC3\xA9 \xE2\x88\x9E.ray"}, {"Settings", "width=400 depth=5: all"}, {"Void", ""}};
   const Picture picture = smoothPicture(17, 5);
-  for (const PictureFormat& format : pictureFormats()) {
+  for (const PictureFormat& format : writtenFormats()) {
     SCOPED_TRACE(format.name);
     const std::string path = folder / ("words" + std::string(format.suffixes[0]));
     writePicture(path, picture, Rounding::truncate, words);
@@ -317,7 +331,7 @@ TEST(CodecMetadata, AwkwardWordsNeverLoseThePicture) {
                        {"Long", longText}};
   const Picture picture = smoothPicture(3, 2);
   const test::Folder folder;
-  for (const PictureFormat& format : pictureFormats()) {
+  for (const PictureFormat& format : writtenFormats()) {
     SCOPED_TRACE(format.name);
     const std::string path = folder / ("awkward" + std::string(format.suffixes[0]));
     writePicture(path, picture, Rounding::truncate, words);
@@ -344,7 +358,7 @@ std::string messageOf(const std::function<void()>& act) {
 }
 
 TEST(CodecNames, SuffixInAnyCase) {
-  for (const PictureFormat& format : pictureFormats())
+  for (const PictureFormat& format : writtenFormats())
     for (std::string_view suffix : format.suffixes) {
       EXPECT_EQ(pictureFormatFor("folder.x/a.b" + std::string(suffix)).name, format.name);
       std::string upper(suffix);
@@ -356,7 +370,7 @@ TEST(CodecNames, SuffixInAnyCase) {
 
 TEST(CodecNames, UnknownSuffixNamesAllKnownOnes) {
   const std::string message = messageOf([] { pictureFormatFor("out.pngg"); });
-  for (const PictureFormat& format : pictureFormats())
+  for (const PictureFormat& format : writtenFormats())
     for (std::string_view suffix : format.suffixes)
       EXPECT_NE(message.find(suffix), std::string::npos) << message;
   EXPECT_NE(message.find("did you mean \".png\"?"), std::string::npos) << message;
@@ -379,7 +393,7 @@ TEST(CodecErrors, UnwritablePathLeavesNothing) {
 }
 
 TEST(CodecErrors, SizesThatDoNotFit) {
-  for (const PictureFormat& format : pictureFormats()) {
+  for (const PictureFormat& format : writtenFormats()) {
     EXPECT_NO_THROW(checkEncodable(format, 8000, 6000)) << format.name;
     EXPECT_THROW(checkEncodable(format, 0, 5), Error);
     EXPECT_THROW(checkEncodable(format, 5, -1), Error);
@@ -424,8 +438,7 @@ bool saysNothing(const PictureFormat& format, const std::string& whole, size_t l
 TEST(CodecErrors, EveryTruncationIsRefused) {
   for (const PictureFormat& format : pictureFormats())
     for (const auto& [width, height] : {std::pair(1, 1), std::pair(17, 5)}) {
-      const std::string whole =
-          encodePicture(format, noisyPicture(width, height), Rounding::truncate, {{"Key", "some words"}});
+      const std::string whole = fileOf(format, noisyPicture(width, height), {{"Key", "some words"}});
       for (size_t length = 0; length < whole.size(); ++length) {
         // a copy of exact length, so that the address sanitizer sees every byte read too far
         const std::string cut(whole, 0, length);
@@ -443,8 +456,7 @@ TEST(CodecErrors, DamagedBytesNeverCrash) {
   std::uint32_t state = 7;
   const auto random = [&] { return (state = state * 1664525u + 1013904223u) >> 8; };
   for (const PictureFormat& format : pictureFormats()) {
-    const std::string whole =
-        encodePicture(format, noisyPicture(17, 5), Rounding::truncate, {{"Key", "words"}});
+    const std::string whole = fileOf(format, noisyPicture(17, 5), {{"Key", "words"}});
     for (int trial = 0; trial < 1500; ++trial) {
       std::string damaged = whole;
       // most changes to the header, where the sizes are
@@ -462,9 +474,122 @@ TEST(CodecErrors, DamagedBytesNeverCrash) {
   }
 }
 
+TEST(CodecErrors, KindsThatAreNotReadAreNamed) {
+  const std::pair<std::string, const char*> kKinds[] = {
+      {text({0xAB, 'K', 'T', 'X', ' ', '2', '0', 0xBB, 13, 10, 26, 10}), "a KTX2 texture"},
+      {text({0, 0, 0, 28, 'f', 't', 'y', 'p', 'a', 'v', 'i', 'f'}), "an AVIF picture"},
+      {"GIF89a", "a GIF picture"},
+      {text({'I', 'I', '*', 0, 8, 0, 0, 0}), "a TIFF picture"},
+      {"DDS |", "a DDS texture"}};
+  for (const auto& [bytes, kind] : kKinds) {
+    const std::string message = messageOf([&] { decodePicture(bytes, "a.png"); });
+    EXPECT_NE(message.find("found " + std::string(kind) + ", which is not read"), std::string::npos)
+        << message;
+  }
+}
+
+// --- formats that are only read ----------------------------------------------------------------------------
+
+TEST(CodecReadOnly, WritingIsRefusedBeforeAnythingIsRendered) {
+  const std::string message = messageOf([] { pictureFormatFor("out.WebP"); });
+  EXPECT_NE(message.find("ends in .png, .bmp"), std::string::npos) << message;
+  EXPECT_NE(message.find("WebP pictures are read, not written"), std::string::npos) << message;
+  EXPECT_EQ(pictureFormatNamed("out.WebP"), &formatNamed("WebP"));
+  EXPECT_EQ(pictureFormatNamed("out.gif"), nullptr);
+  EXPECT_THROW(checkEncodable(formatNamed("WebP"), 1, 1), Error);
+  EXPECT_THROW(encodePicture(formatNamed("WebP"), Picture(1, 1)), Error);
+}
+
+/// Bytes without a pattern; the last of four is not always opaque.
+Raster noisyRaster(int width, int height, int channels) {
+  Raster raster(width, height, channels, 255);
+  std::vector<std::uint8_t> samples;
+  std::uint32_t state = 3;
+  while (samples.size() < raster.count())
+    samples.push_back(static_cast<std::uint8_t>((state = state * 1664525u + 1013904223u) >> 24));
+  raster.samples = samples;
+  return raster;
+}
+
+TEST(CodecWebp, WithoutLossItIsItsPng) {
+  for (const int channels : {3, 4}) {
+    const Raster raster = noisyRaster(19, 7, channels);
+    const Raster webp = decodeRaster(test::webpOf(raster), "a.webp"),
+                 png = decodeRaster(encodePng(raster), "a.png");
+    EXPECT_EQ(webp.channels, channels);
+    EXPECT_EQ(webp.width, png.width);
+    EXPECT_EQ(webp.samples, png.samples);
+    EXPECT_FALSE(webp.premultiplied);
+  }
+}
+
+TEST(CodecWebp, WithLossItIsNearAndItsAlphaIsExact) {
+  Raster raster(16, 16, 4, 255);
+  std::vector<std::uint8_t> samples;
+  for (int i = 0; i < 16 * 16; ++i)
+    samples.insert(samples.end(), {200, 100, 50, static_cast<std::uint8_t>(255 - i)});
+  raster.samples = samples;
+  const Raster back = decodeRaster(test::webpOf(raster, false), "a.webp");
+  ASSERT_EQ(back.channels, 4);
+  const auto& found = std::get<std::vector<std::uint8_t>>(back.samples);
+  ASSERT_EQ(found.size(), samples.size());
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (i % 4 == 3)
+      EXPECT_EQ(found[i], samples[i]) << i;
+    else
+      EXPECT_NEAR(found[i], samples[i], 4) << i;
+}
+
+TEST(CodecWebp, OfAnAnimationTheFirstPictureIsShownOnItsCanvas) {
+  const Raster first = noisyRaster(3, 2, 4), second = noisyRaster(9, 9, 4);
+  const std::string file =
+      test::webpAnimation(9, 9, test::webpFrame(4, 6, first) + test::webpFrame(0, 0, second));
+  const Raster canvas = decodeRaster(file, "a.webp");
+  ASSERT_EQ(canvas.width, 9);
+  ASSERT_EQ(canvas.height, 9);
+  ASSERT_EQ(canvas.channels, 4);
+  const auto& samples = std::get<std::vector<std::uint8_t>>(canvas.samples);
+  const auto& inside = std::get<std::vector<std::uint8_t>>(first.samples);
+  for (std::size_t y = 0; y < 9; ++y)
+    for (std::size_t x = 0; x < 9; ++x)
+      for (std::size_t c = 0; c < 4; ++c) {
+        const bool isInside = x >= 4 && x < 7 && y >= 6 && y < 8;
+        EXPECT_EQ(samples[4 * (9 * y + x) + c], isInside ? inside[4 * (3 * (y - 6) + x - 4) + c] : 0)
+            << x << " " << y;
+      }
+  EXPECT_EQ(pictureRemark(file, "a"), "of an animation the first picture is shown");
+  for (std::size_t length = 0; length < file.size(); ++length)
+    EXPECT_THROW(decodeRaster(file.substr(0, length), "cut"), Error) << length;
+}
+
+TEST(CodecWebp, FramesThatLeaveTheirCanvasAreRefused) {
+  const Raster frame = noisyRaster(5, 5, 4);
+  for (const auto& [x, y] : {std::pair(6, 0), std::pair(0, 6), std::pair(4, 4)}) {
+    const std::string file = test::webpAnimation(9, 9, test::webpFrame(x, y, frame));
+    EXPECT_EQ(messageOf([&] { decodeRaster(file, "a"); }) == "nothing was thrown", x == 4) << x;
+  }
+  // The picture in the frame is larger than the frame says.
+  std::string lies = test::webpAnimation(9, 9, test::webpFrame(4, 4, noisyRaster(9, 9, 4)));
+  const std::size_t size = lies.find("ANMF") + 8 + 6;
+  lies[size] = lies[size + 3] = 4;
+  EXPECT_THROW(decodeRaster(lies, "a"), Error);
+}
+
+TEST(CodecWebp, APictureOfOneColourIsSmallAtAnySize) {
+  Raster plain(6000, 6000, 3, 255);
+  plain.samples = std::vector<std::uint8_t>(plain.count(), 77);
+  const std::string file = test::webpOf(plain);
+  EXPECT_LT(file.size(), 100u);
+  const Raster back = decodeRaster(file, "a.webp");
+  EXPECT_EQ(back.samples, plain.samples);
+}
+
 // --- limits ------------------------------------------------------------------------------------------------
 
-/// The file of a 17 x 5 picture with another size in its header, checksums as they should be.
+constexpr int kMostWebpSide = 1 << 14;
+
+/// The file of a 17 x 5 picture with another size in its header, checksums as they should be. Sides of WebP
+/// are at most 2^14.
 std::string claiming(const PictureFormat& format, std::string file, int width, int height) {
   const auto put = [&](std::size_t at, std::initializer_list<int> bytes) {
     for (int byte : bytes) file.at(at++) = static_cast<char>(byte);
@@ -496,6 +621,8 @@ std::string claiming(const PictureFormat& format, std::string file, int width, i
     little(at + 12, height - 1);
   } else if (format.name == "TGA") {
     put(12, {width & 255, width >> 8 & 255, height & 255, height >> 8 & 255});
+  } else if (format.name == "WebP") {  // lossless: 14 bits of each side less 1
+    little(21, (std::min(width, kMostWebpSide) - 1) | (std::min(height, kMostWebpSide) - 1) << 14);
   } else {
     ADD_FAILURE() << "a new format: say where its size stands";
   }
@@ -515,7 +642,7 @@ std::optional<Fault> faultOf(const std::string& file, const PictureLimits& limit
 TEST(CodecLimits, EnlargedSizesAreRefused) {
   constexpr int kSides[][2] = {{170, 50}, {17, 50}, {170, 5}, {1700, 900}, {9000, 9000}, {60000, 60000}};
   for (const PictureFormat& format : pictureFormats()) {
-    const std::string file = encodePicture(format, noisyPicture(17, 5));
+    const std::string file = fileOf(format, noisyPicture(17, 5));
     EXPECT_FALSE(faultOf(claiming(format, file, 17, 5)))
         << format.name << ": the size is not where it is looked for";
     for (const auto& [width, height] : kSides) {
@@ -529,7 +656,7 @@ TEST(CodecLimits, EnlargedSizesAreRefused) {
 
 TEST(CodecLimits, MemoryIsAskedOfTheHeader) {
   for (const PictureFormat& format : pictureFormats()) {
-    const std::string file = encodePicture(format, noisyPicture(100, 100));
+    const std::string file = fileOf(format, noisyPicture(100, 100));
     EXPECT_EQ(faultOf(file, {.memory = 100 << 10}), Fault::limit) << format.name;
     EXPECT_EQ(faultOf(file, {.memory = 1 << 20}), std::nullopt) << format.name;
   }
@@ -550,14 +677,15 @@ TEST(CodecLimits, TheSizeAndTheLimitAreSaid) {
   constexpr int kSide = 20'001;
   const std::size_t bytes = std::size_t{kSide} * kSide / 1000;  // so many that the size may be true
   for (const PictureFormat& format : pictureFormats()) {
-    std::string file = claiming(format, encodePicture(format, noisyPicture(17, 5)), kSide, kSide);
+    std::string file = claiming(format, fileOf(format, noisyPicture(17, 5)), kSide, kSide);
     file.append(bytes, format.name == "PPM" ? ' ' : '\0');
     try {
       decodePicture(file, "file");
       ADD_FAILURE() << format.name;
     } catch (const Error& error) {
       const std::string what = error.messages().front().what;
-      EXPECT_NE(what.find("20001x20001 pixels"), what.npos) << format.name << ": " << what;
+      const char* const size = format.name == "WebP" ? "16384x16384 pixels" : "20001x20001 pixels";
+      EXPECT_NE(what.find(size), what.npos) << format.name << ": " << what;
       EXPECT_TRUE(what.find("allowed are 4096") != what.npos || what.find("not believable") != what.npos)
           << format.name << ": " << what;
       if (format.name == "PNG") {
@@ -579,7 +707,7 @@ TEST(CodecLimits, LargePicturesOfOneColourAreRead) {
   Picture plain(3000, 2000);
   std::fill(plain.pixels.begin(), plain.pixels.end(), Color(0.5, 0.25, 1));
   for (const PictureFormat& format : pictureFormats())
-    EXPECT_EQ(faultOf(encodePicture(format, plain)), std::nullopt) << format.name;
+    EXPECT_EQ(faultOf(fileOf(format, plain)), std::nullopt) << format.name;
 }
 
 TEST(CodecLimits, AttributesLongerThanTheFileTakeNoMemory) {
@@ -626,7 +754,7 @@ TEST(CodecErrors, DamagedFilesNeverShowMemory) {
     return values;
   };
   for (const PictureFormat& format : pictureFormats()) {
-    const std::string whole = encodePicture(format, noisyPicture(17, 40));
+    const std::string whole = fileOf(format, noisyPicture(17, 40));
     for (int trial = 0; trial < 400; ++trial) {
       std::string damaged = whole;
       const std::size_t reach = trial % 2 == 0 ? damaged.size() : std::min<std::size_t>(damaged.size(), 420);

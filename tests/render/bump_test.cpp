@@ -7,6 +7,9 @@
 #include "geometry/shapes/sphere.h"
 #include "render/tracer.h"
 #include "render/world.h"
+#include "shading/materials/principled.h"
+#include "shading/textures/formula.h"
+#include "shading/textures/image_map.h"
 #include "support/seen.h"
 
 namespace trace::bump_test {

@@ -5,6 +5,7 @@
 
 #include "geometry/shapes/sphere.h"
 #include "shading/textures/formula.h"
+#include "shading/textures/noise.h"
 #include "support/ball.h"
 #include "support/scenes.h"
 
@@ -77,7 +78,7 @@ TEST(Displacement, AfterAnEditOnlyWhatIsDisplacedOtherwiseIsMadeAnew) {
     EXPECT_EQ(picture(now, settings, other.camera), picture(other, settings));
     return now;
   };
-  const World painted = edited([](Scene& s) { std::get<Phong>(s.materials[0].model).diffuse = {1, 0, 0}; });
+  const World painted = edited([](Scene& s) { s.materials[0].model.edit<Phong>()->diffuse = {1, 0, 0}; });
   EXPECT_EQ(painted.meshTree(0), world.meshTree(0));
   const World higher = edited([](Scene& s) { s.materials[0].displacement = 0.2; });
   EXPECT_NE(higher.meshTree(0), world.meshTree(0));

@@ -84,7 +84,7 @@ struct Place {
 
 /// Escape-time fractals: the finest threads of them are missed by some rays (docs/shapes.md, Fractals).
 bool hasThreads(const ShapeType& type) {
-  for (const AnyField& field : fieldsOf(Shape(type)))
+  for (const AnyField& field : Shape(type).fields())
     if (field.keyword == "trap") return true;
   return false;
 }

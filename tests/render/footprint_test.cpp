@@ -12,6 +12,8 @@
 #include "render/pixel.h"
 #include "render/world.h"
 #include "shading/optics.h"
+#include "shading/textures/checker.h"
+#include "shading/textures/image_map.h"
 #include "support/random.h"
 #include "support/shapes.h"
 

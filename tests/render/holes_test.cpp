@@ -6,6 +6,8 @@
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
 #include "render/explain.h"
+#include "shading/material_list.h"
+#include "shading/textures/checker.h"
 #include "support/scenes.h"
 
 namespace trace::test::holes_test {
@@ -59,7 +61,7 @@ void forEachIntegrator(const Test& test) {
 }
 
 TEST(Holes, WhatIsNotThereChangesNothingWhateverItsModel) {
-  forEachType<MaterialModel>([]<class Model>(Model*) {
+  forEachType<ModelList>([]<class Model>(Model*) {
     SCOPED_TRACE(std::string(Model::kKeyword));
     const Bsdf bsdf = bsdfOf(MaterialModel(Model{}), {});
     const bool isTarget = whitted(bsdf).mirrors() || whitted(bsdf).transmits();  // photons are sent there
@@ -85,7 +87,7 @@ TEST(Holes, WhatIsThereInPartLetsTheRestOfLightThrough) {
   // A veil above the floor, beside what the camera sees, and one before the camera; each alone, for light
   // that crosses both is weighed twice.
   const std::array veils{at(0, 0, 2) * Affine::scaling({9, 9, 1}), at(-0.6, 0.3, 1)};
-  forEachType<MaterialModel>([&]<class Model>(Model*) {
+  forEachType<ModelList>([&]<class Model>(Model*) {
     SCOPED_TRACE(std::string(Model::kKeyword));
     const auto shadows = [&](Real opacity) {
       Scene scene = floorAndLamps();

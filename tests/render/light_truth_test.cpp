@@ -10,6 +10,8 @@
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
 #include "render/media.h"
+#include "shading/materials/principled.h"
+#include "shading/materials/thin_glass.h"
 #include "support/lights.h"
 #include "support/rooms.h"
 
@@ -203,7 +205,7 @@ TEST(LightTruth, WhatTurnsNoLightLeavesEachLightItsLawOfDistance) {
           std::string_view(kind) == "point" || std::string_view(kind) == "another law of distance";
       if (!passes && !near) continue;
       // Path finds no point in two mirrors.
-      const bool mirrors = !passes || std::holds_alternative<ThinGlass>(material.model);
+      const bool mirrors = !passes || material.model.is<ThinGlass>();
       expectAllShow(belowSheets(material, light, mirrors ? 1 : 2), settings, passes ? 0.02 : 0.06,
                     passes && std::string_view(kind) == "point", passes ? 2 : 24);
     }
@@ -223,7 +225,7 @@ TEST(LightTruth, APaneTakesNoBounceOfTheLightThatCrossesIt) {
     scene.lights[0].links.name = "lamp", scene.objects[1].links.notLitBy = {"lamp"};
     expectAllShow(scene, settings, 0.02, depth > 0);
     // Pale shadows, and a highlight of its own.
-    std::get<Phong>(scene.materials[0].model).shadow = 0.5;
+    scene.materials[0].model.edit<Phong>()->shadow = 0.5;
     std::get<PointLight>(scene.lights[0].light).extraHighlight = Color(0.5);
     expectAllShow(scene, settings, 0.02, depth > 0);
   }

@@ -12,6 +12,7 @@
 #include "render/agreement.h"
 #include "render/explain.h"
 #include "render/photons.h"
+#include "shading/textures/noise.h"
 #include "support/random.h"
 #include "support/rooms.h"
 

@@ -10,6 +10,9 @@
 #include "geometry/shapes/square.h"
 #include "render/explain.h"
 #include "shading/medium.h"
+#include "shading/textures/checker.h"
+#include "shading/textures/gradient.h"
+#include "shading/textures/noise.h"
 #include "support/half_space.h"
 #include "support/random.h"
 #include "support/rooms.h"
@@ -58,8 +61,8 @@ Affine boxAt(Real z, Real depth) { return Affine::translation({0, 0, z}) * Affin
 Texture growing() {
   TextureNode node;
   node.model = Gradient{};
-  std::get<Gradient>(node.model).a = Color(0);
-  std::get<Gradient>(node.model).b = Color(1);
+  node.model.edit<Gradient>()->a = Color(0);
+  node.model.edit<Gradient>()->b = Color(1);
   node.placement.rotate = {0, -90, 0};  // x of the pattern is z
   node.placement.translate = {0, 0, -0.5};
   return node;
@@ -125,7 +128,7 @@ TEST(Media, ScatterTheLightOfALampOnceByTheIntegral) {
     if (textured) {
       TextureNode half;
       half.model = Checker{};
-      std::get<Checker>(half.model).a = std::get<Checker>(half.model).b = Color(0.5);
+      half.model.edit<Checker>()->a = half.model.edit<Checker>()->b = Color(0.5);
       setTexture(cloud.textures, "medium_density", half);
     }
     scene.lights.push_back(

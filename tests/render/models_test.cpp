@@ -8,6 +8,11 @@
 #include "geometry/shapes/square.h"
 #include "render/explain.h"
 #include "render/integrators/whitted.h"
+#include "shading/materials/conductor.h"
+#include "shading/materials/lambert.h"
+#include "shading/materials/marschner.h"
+#include "shading/materials/rough_glass.h"
+#include "shading/materials/thin_glass.h"
 #include "support/scenes.h"
 
 namespace trace::test::models_test {

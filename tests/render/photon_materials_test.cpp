@@ -6,6 +6,7 @@
 
 #include "geometry/shapes/cube.h"
 #include "render/agreement.h"
+#include "shading/material_list.h"
 #include "support/rooms.h"
 
 namespace trace::test::photon_materials_test {
@@ -20,7 +21,7 @@ struct Surface {
 /// let light through where they can.
 std::vector<Surface> surfaces() {
   std::vector<Surface> all;
-  forEachType<MaterialModel>([&]<class Model>(Model*) {
+  forEachType<ModelList>([&]<class Model>(Model*) {
     Model usual;
     if constexpr (requires { usual.shadow; }) usual.shadow = 1;
     if constexpr (std::is_same_v<Model, Phong>) usual.diffuse = Color(0.3), usual.reflective = Color(0.6);
@@ -142,7 +143,7 @@ TEST(PhotonMaterials, EachLobeRestsInOneMap) {
       if (through && !passes) continue;
       // Fibres give back other light than they get: paths from lights do not find the same as those from
       // eyes.
-      const bool fibres = std::holds_alternative<Marschner>(surface.model);
+      const bool fibres = surface.model.is<Marschner>();
       for (const Light light : {Light::lamp, Light::point})
         comparison.compare(
             surface.name + (through ? " around" : " above") + (light == Light::lamp ? " a lamp" : " a light"),

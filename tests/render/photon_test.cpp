@@ -5,6 +5,8 @@
 #include "geometry/shapes/square.h"
 #include "render/explain.h"
 #include "render/photons.h"
+#include "shading/materials/conductor.h"
+#include "shading/materials/thin_glass.h"
 #include "support/quarters.h"
 #include "support/random.h"
 #include "support/rooms.h"

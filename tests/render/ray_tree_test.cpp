@@ -245,8 +245,8 @@ TEST(RayTree, NamesTheMaterialsOfATrianglesCornersWithTheirWeights) {
 
 TEST(RayTree, NamesTheMaterialsOfWhatFiltersOrBlocksAShadowRay) {
   Scene scene = withMaterials({"floor", "dark", "glass"});
-  std::get<Phong>(scene.materials[0].model).diffuse = Color(1);
-  std::get<Phong>(scene.materials[2].model).transmissive = Color(0.5);
+  scene.materials[0].model.edit<Phong>()->diffuse = Color(1);
+  scene.materials[2].model.edit<Phong>()->transmissive = Color(0.5);
   scene.objects.push_back({"", Square{}, Affine::scaling({20, 20, 1}), 0, {}});
   const Affine over = Affine::translation({8, 0, 2});
   scene.objects.push_back({"", Union{Operands({{"", Cube{}, {}, 2}})}, over, 1, {}});
@@ -298,7 +298,7 @@ TEST(RayTree, SaysWhyNoRayIsSentOn) {
   settings.depth = 1, settings.threshold = 0.5;
   EXPECT_EQ(sentences(scene, settings).at(0), "contribution 0.25 below threshold 0.5: no reflection");
   settings.threshold = 0;
-  EXPECT_EQ(sentences(scene, settings).at(0), "goes on as reflection");
+  EXPECT_EQ(sentences(scene, settings).at(0), "continues as reflection");
 }
 
 TEST(RayTree, SaysThatLightIsReflectedTotally) {

@@ -6,6 +6,7 @@
 #include "geometry/mesh/mesh.h"
 #include "render/tracer.h"
 #include "render/world.h"
+#include "shading/textures/image_map.h"
 #include "support/seen.h"
 
 namespace trace::second_uv_test {

@@ -9,6 +9,7 @@
 #include "geometry/shapes/sphere.h"
 #include "render/explain.h"
 #include "render/photons.h"
+#include "shading/materials/subsurface.h"
 #include "support/half_space.h"
 #include "support/rooms.h"
 

@@ -7,6 +7,7 @@
 #include "geometry/shapes/square.h"
 #include "render/agreement.h"
 #include "scene/conventions.h"
+#include "shading/materials/conductor.h"
 #include "support/rooms.h"
 
 namespace trace::test::truth_test {

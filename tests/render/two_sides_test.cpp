@@ -87,7 +87,7 @@ TEST(TwoSides, EveryIntegratorShowsTheBackAsTheFront) {
 }
 
 TEST(TwoSides, EveryModelLooksFromBehindAsFromTheFront) {
-  forEachType<MaterialModel>([]<class Model>(Model*) {
+  forEachType<ModelList>([]<class Model>(Model*) {
     SCOPED_TRACE(std::string(Model::kKeyword));
     const Bsdf bsdf = bsdfOf(MaterialModel(Model{}), {});
     if (whitted(bsdf).transmits() || whitted(bsdf).passage == Passage::straight)

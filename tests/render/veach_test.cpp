@@ -13,6 +13,9 @@
 #include "image/srgb.h"
 #include "render/agreement.h"
 #include "render/metropolis.h"
+#include "shading/materials/conductor.h"
+#include "shading/materials/oren_nayar.h"
+#include "shading/materials/rough_glass.h"
 #include "support/lights.h"
 #include "support/quarters.h"
 #include "support/random.h"
@@ -517,7 +520,7 @@ TEST(Veach, WhatIsNotKnownIsRefused) {
             "--chains veach does not know surfaces that are there in part (opacity)");
   Scene cloud = lit();
   addCloud(cloud, Sphere{}, Affine::translation({0.5, 0.5, 0.5}) * scaled(0.3), 1);
-  EXPECT_EQ(refused(cloud, settings), "--chains veach does not know media that fill bodies");
+  EXPECT_EQ(refused(cloud, settings), "--chains veach does not know media inside objects");
   settings.chains = Chains::bdpt;
   EXPECT_EQ(refused(cloud, settings), "");
 }

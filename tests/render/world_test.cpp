@@ -300,8 +300,8 @@ TEST(World, AfterAnEditOnlyWhatChangedIsMadeAnew) {
   };
 
   const World painted = edited([](Scene& s) {
-    std::get<Phong>(s.materials[3].model).transmissive = Color(0.5);
-    std::get<Phong>(s.materials[kBall].model).diffuse = {1, 0, 0};
+    s.materials[3].model.edit<Phong>()->transmissive = Color(0.5);
+    s.materials[kBall].model.edit<Phong>()->diffuse = {1, 0, 0};
     s.lights.pop_back();
     s.camera.position.x += 1;
   });
@@ -345,7 +345,7 @@ TEST(World, AChangedSolidKeepsTheTreesOfItsMeshes) {
   addObject(scene, pierced(0.2), {}, {});
   scene.camera.position = {0, 0, 6};
   scene.lights.push_back({DirectionalLight{.direction = {0, 0, -1}, .color = Color(1)}, {}});
-  std::get<Phong>(scene.materials[0].model).diffuse = Color(1);
+  scene.materials[0].model.edit<Phong>()->diffuse = Color(1);
   const Settings settings{.width = 40};
   const World world = build(scene, settings);
   const auto treesOf = [](const Shape& shape, const MeshTrees& made) {

@@ -10,6 +10,7 @@
 #include "shading/library.h"
 #include "shading/materials/subsurface.h"
 #include "shading/substances.h"
+#include "shading/textures/blackbody.h"
 #include "support/paths.h"
 
 namespace trace {
@@ -90,7 +91,7 @@ TEST(Translucents, AreMaterialsOfTheirCoefficients) {
   for (const Translucent& t : translucents()) {
     const auto material = libraryMaterial(t.name);
     ASSERT_TRUE(material) << t.name;
-    const auto* model = std::get_if<Subsurface>(&material->model);
+    const auto* model = material->model.as<Subsurface>();
     ASSERT_TRUE(model) << t.name;
     EXPECT_EQ(model->scatters, t.scatters);
     EXPECT_EQ(model->absorbs, t.absorbs);

@@ -12,6 +12,7 @@
 
 #include "shading/bsdf.h"
 #include "shading/fresnel.h"
+#include "shading/material_list.h"
 
 namespace trace {
 namespace {
@@ -108,13 +109,12 @@ TEST(WhiteFurnace, AllLightComesBackAtAllAnglesAndRoughnesses) {
   for (const Real roughness : kFurnaceRoughnesses)
     for (const White& w : whites(roughness))
       for (const bool exact : {false, true}) {
-        const bool hasIndex =
-            !std::holds_alternative<Conductor>(w.model) && !std::holds_alternative<RoughGlass>(w.model);
+        const bool hasIndex = !w.model.is<Conductor>() && !w.model.is<RoughGlass>();
         if (exact && !hasIndex) continue;  // --fresnel does not matter
         const Bsdf bsdf = bsdfOf(w.model, {.exactFresnel = exact});
         for (const Real angle : kFurnaceAngles)
           for (const Real side : {1.0, -1.0}) {
-            if (side < 0 && !std::holds_alternative<RoughGlass>(w.model)) continue;
+            if (side < 0 && !w.model.is<RoughGlass>()) continue;
             EXPECT_NEAR(furnace(bsdf, side * cosineOf(angle)), 1, 0.01)
                 << w.name << " roughness " << roughness << (exact ? " exact" : "") << " at " << side * angle
                 << " degrees";
@@ -140,7 +140,7 @@ std::optional<MaterialModel> smoothOfIndex(Real index) {
 
 TEST(ExactFresnel, IsWhatEveryModelWithAnIndexMirrors) {
   int found = 0;
-  forEachType<MaterialModel>([&]<class Model>(Model*) {
+  forEachType<ModelList>([&]<class Model>(Model*) {
     for (const Real index : {1.33, 1.5, 2.4})
       for (const Real angle : {0.0, 30.0, 56.30993, 75.0, 85.0, 89.0}) {
         const std::optional<MaterialModel> model = smoothOfIndex<Model>(index);
@@ -193,7 +193,7 @@ bool setFilm(Model& model, Real nanometres) {
 
 TEST(ThinFilm, ThatVanishesChangesNoModel) {
   int found = 0;
-  forEachType<MaterialModel>([&]<class Model>(Model*) {
+  forEachType<ModelList>([&]<class Model>(Model*) {
     const auto check = [&](const Model& bare, const std::string& what) {
       for (const bool exact : {false, true}) {
         Model filmed = bare;

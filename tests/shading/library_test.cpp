@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 
+#include "shading/materials/conductor.h"
 #include "shading/substances.h"
 #include "support/paths.h"
 
@@ -59,7 +60,7 @@ TEST(Library, FinishesAreOpaqueAndNoTwoAlike) {
 
 TEST(Library, MetalsMirrorInTheirColours) {
   const auto along = [](std::string_view name) {
-    return std::get<Conductor>(libraryMaterial(name)->model).mirrored(1);
+    return libraryMaterial(name)->model.as<Conductor>()->mirrored(1);
   };
   EXPECT_GT(along("gold").r, along("gold").b * 2);
   EXPECT_GT(along("copper").r, along("copper").g * 1.3);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "shading/texture.h"
+#include "shading/texture_list.h"
 
 namespace trace {
 namespace {
@@ -40,7 +41,7 @@ void expectNear(const Color& a, const Color& b, Real tolerance) {
 
 template <class Visit>
 void forEachPattern(const Visit& visit) {
-  forEachType<TextureModel>([&](auto* type) {
+  forEachType<TextureList>([&](auto* type) {
     using Model = std::remove_pointer_t<decltype(type)>;
     SCOPED_TRACE(std::string(Model::kKeyword));
     visit(Model{});

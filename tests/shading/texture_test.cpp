@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "shading/materials/phong.h"
+#include "shading/textures/checker.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "geometry/field_value.h"
 #include "shading/material.h"
+#include "shading/material_list.h"
 
 namespace trace::test {
 
@@ -50,7 +51,7 @@ std::vector<Value> otherValues(const Field& field, const Value& value) {
 /// Each model with its defaults, and with one field changed.
 inline std::vector<NamedModel> variedModels() {
   std::vector<NamedModel> all;
-  forEachType<MaterialModel>([&]<class Model>(Model*) {
+  forEachType<ModelList>([&]<class Model>(Model*) {
     Model usual;
     if constexpr (std::is_same_v<Model, Phong>)
       usual.diffuse = {0.5, 0.4, 0.1}, usual.specular = {0.4, 0.4, 0.5}, usual.shininess = 20;

@@ -136,7 +136,7 @@ inline Shape typical(const ShapeType& type) {
 /// The shape with each other value of the field of that number, one at a time.
 inline std::vector<Shape> varied(const Shape& shape, std::size_t field) {
   std::vector<Shape> all;
-  match(fieldsOf(shape)[field].value, [&](const auto& value) {
+  match(shape.fields()[field].value, [&](const auto& value) {
     if constexpr (requires { *value; }) {
       for (const auto& other : variations(*value)) {
         all.push_back(shape);
@@ -155,7 +155,7 @@ inline std::vector<Shape> varied(const Shape& shape, std::size_t field) {
 /// The typical shape, and one with each field changed.
 inline std::vector<Shape> samplesOf(const ShapeType& type) {
   std::vector<Shape> samples{typical(type)};
-  for (std::size_t field = 0; field < fieldsOf(samples[0]).size(); ++field)
+  for (std::size_t field = 0; field < samples[0].fields().size(); ++field)
     for (Shape& other : varied(samples[0], field)) samples.push_back(std::move(other));
   return samples;
 }

@@ -149,7 +149,7 @@ class BinaryReader {
       p.vertexMaterials = choice(1, "binding of materials") == 1;
       p.hasUv = choice(1, "texture") == 1;
     }
-    integer();  // of a grid: polygons in a row
+    integer();  // for a grid: polygons in a row
     const std::size_t size =
         kWord * (3u + (p.vertexNormals ? 3u : 0u) + (p.vertexMaterials ? 1u : 0u) + (p.hasUv ? 2u : 0u));
     for (std::uint32_t n = count(kWord); n > 0; --n) {

@@ -1,5 +1,6 @@
-// What a file of the composer says, word for word: one camera, lights, spheres and sets of polygons in world
-// space. Between the bytes (composer_text.cpp, composer_binary.cpp) and the Scene (composer_format.cpp).
+// The contents of a file of the composer, word for word: one camera, lights, spheres and sets of polygons in
+// world space. Between the bytes (composer_text.cpp, composer_binary.cpp) and the Scene
+// (composer_format.cpp).
 //
 // Source: the format 2.1 of 1995 that the courses of 1998 rendered (docs/formats.md).
 #pragma once
@@ -16,7 +17,7 @@
 
 namespace trace::composer {
 
-inline constexpr Real kGlass = 1.5;           ///< the index of what lets light through
+inline constexpr Real kGlass = 1.5;           ///< the index of what transmits light
 inline constexpr Real kShininessScale = 128;  ///< from shininess to the exponent
 
 struct View {
@@ -48,8 +49,8 @@ struct Vertex {
 
 struct PolySet {
   bool vertexNormals = false, vertexMaterials = false, hasUv = false;
-  std::vector<std::uint32_t> counts;  ///< of the vertices of each polygon
-  std::vector<Vertex> vertices;       ///< of all polygons in turn
+  std::vector<std::uint32_t> counts;  ///< counts of the vertices of each polygon
+  std::vector<Vertex> vertices;       ///< vertices of all polygons in turn
 };
 
 struct Sphere {

@@ -29,9 +29,9 @@ namespace {
 namespace cf = composer;
 
 constexpr std::string_view kMagic = "Composer format";
-constexpr Real kBumpHeight = 0.02;  // of white, in units of the object: its name says only which picture
+constexpr Real kBumpHeight = 0.02;  // height of white, in units of the object: the name gives no height
 
-/// What an object's name says beside the name.
+/// The properties that an object's name gives besides the name.
 struct Extras {
   std::optional<Real> ior, reflect;
   std::optional<std::string> texture, bump;
@@ -253,7 +253,7 @@ class ComposerReader {
   void append(MeshData& mesh, const cf::PolySet& p, const cf::Vertex& v, const cf::Object& object,
               std::uint32_t firstMaterial) {
     mesh.points.push_back(Vec3f(v.position));
-    if (p.vertexNormals) {  // of any length in the file, mixed as unit vectors
+    if (p.vertexNormals) {  // normals have any length in the file and are mixed as unit vectors
       const Real l = length(v.normal);
       mesh.normals.push_back(l > 0 ? Vec3f(v.normal / l) : Vec3f{});
     }

@@ -14,6 +14,7 @@
 #include "geometry/shapes/sphere.h"
 #include "scene/displacement.h"
 #include "scene/options.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {
@@ -102,7 +103,7 @@ class Writer {
   }
   void add(const GoniometricLight& light) {
     fading(light);
-    warn("lights with photometric files become points that shine to all sides");
+    warn("lights with photometric files become uniform point lights");
     file_.lamps.push_back({.kind = cf::Lamp::Kind::point, .position = light.position, .color = light.color});
   }
   /// It is in the materials; see material().
@@ -123,7 +124,7 @@ class Writer {
     Phong p = phongWithoutTextures(scene_.materials.at(index));
     if (p.shadow != 1) warn("shadows that are not black become black");
     for (const FieldTexture& field : scene_.materials[index].textures) {
-      const auto* image = std::get_if<ImageMap>(&field.texture->model);
+      const auto* image = field.texture->model.as<ImageMap>();
       const bool paints = (field.field == kDiffuse || field.field == kColor) && image;
       if (paints && !hasUv)
         warn("pictures are left out of meshes without texture coordinates");

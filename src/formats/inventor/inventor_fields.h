@@ -10,7 +10,7 @@
 
 namespace trace::inventor {
 
-/// An instance of a PROTO, and what is around it.
+/// An instance of a PROTO, and the environment it.
 struct Env {
   const Node* instance = nullptr;
   const Env* outer = nullptr;

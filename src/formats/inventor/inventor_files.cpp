@@ -1,4 +1,4 @@
-// What other files bring into a scene.
+// Objects and lights that other files bring into a scene.
 #include <variant>
 
 #include "base/file.h"

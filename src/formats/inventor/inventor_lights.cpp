@@ -42,14 +42,13 @@ void Reader::addLight(const Values& v, L light) {
     light.quadratic = fading.z;
     constexpr Real kDefaultRadius = 100;
     if (vrml2_ && v.number("radius", kDefaultRadius) != kDefaultRadius)
-      warn(v.node(), "the radius of a light is not taken into account: it lights what is farther away too",
-           "radius");
+      warn(v.node(), "the radius of a light is ignored: it lights objects farther away too", "radius");
   }
   if constexpr (requires { light.direction; })
     if (!(length(light.direction) > 0))
       return warn(v.node(), "a light without a direction is left out", "light");
   if constexpr (requires { light.position; })
-    if (!isFinite(light.position)) return warn(v.node(), "a light without a place is left out", "light");
+    if (!isFinite(light.position)) return warn(v.node(), "a light without a position is left out", "light");
   scene_.lights.push_back({light, document_.place(v.node().token)});
 }
 

@@ -18,7 +18,7 @@ struct Corner {
 struct Faces {
   std::vector<Vec3> points;
   std::vector<std::uint32_t> counts;  ///< corners of each polygon
-  std::vector<Corner> corners;        ///< of all polygons in turn; their points exist
+  std::vector<Corner> corners;        ///< corners of all polygons in turn; their points exist
   bool hasNormals = false, hasMaterials = false, hasUvs = false;
   bool counterClockwise = true;
   /// Without normals, those of faces that meet at a smaller angle than this, in radians, are mixed.

@@ -40,7 +40,7 @@ struct Rule {
   std::string_view nodes;  ///< their types, between blanks
   std::string_view field;
   Takes takes = Takes::anything;
-  double least = -kNoLimit, most = kNoLimit;  ///< of each number
+  double least = -kNoLimit, most = kNoLimit;  ///< least and most of each number
   std::string_view words{};                   ///< between blanks
   In in = In::both;
 };

@@ -1,5 +1,5 @@
-// What the fields of Inventor's and VRML's nodes may be: a table, by which values of another kind, out of
-// their range or misspelt are found. Such a field then has its default.
+// The valid values of the fields of Inventor's and VRML's nodes: a table, by which values of another kind,
+// out of their range or misspelt are found. Such a field then has its default.
 #pragma once
 
 #include <functional>

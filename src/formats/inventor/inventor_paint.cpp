@@ -40,7 +40,7 @@ Paint paintOf(const Values& m, bool vrml2) {
   paint.emissive = m.colors("emissiveColor");
   paint.shininess = m.numbers("shininess");
   paint.transparency = m.numbers("transparency");
-  paint.mirror = m.numbers("mirror");  // of the castle engine
+  paint.mirror = m.numbers("mirror");  // an extension of the castle engine
   paint.ambientOfDiffuse = vrml2;
   if (vrml2)
     paint.ambient = {Color(m.number("ambientIntensity", 0.2))};

@@ -23,7 +23,7 @@ struct Paint {
     return std::max({ambient.size(), diffuse.size(), specular.size(), emissive.size(), shininess.size(),
                      transparency.size(), std::size_t{1}});
   }
-  /// The last of a list that is too short goes on.
+  /// The last of a list that is too short continues.
   Material material(std::size_t i) const;
 };
 

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "shading/textures/image_map.h"
+#include "shading/textures/mix.h"
+
 namespace trace::inventor {
 namespace {
 
@@ -30,7 +33,7 @@ Texture channelOf(ImageMap map, Channel channel) {
 
 /// The lit surface where `amount` is 0, and `color`, times the texture if there is one, where it is 1.
 void cover(Material& material, const Color& color, const Texture* own, const Texture* amount) {
-  auto& phong = std::get<Phong>(material.model);
+  auto& phong = *material.model.edit<Phong>();
   TextureNode shown{.model = Mix{.a = phong.emissive, .b = color, .amount = 1}};
   if (own) setTexture(shown.inputs, "b", *own);
   if (amount) setTexture(shown.inputs, "amount", *amount);
@@ -64,7 +67,7 @@ void paint(Material& material, const PaintedPicture& picture, const TextureTrans
   if (picture.model == Model::blend) {
     cover(material, picture.blend, nullptr, &whole);
   } else {
-    const auto& phong = std::get<Phong>(material.model);
+    const auto& phong = *material.model.as<Phong>();
     const bool unlit = isBlack(phong.diffuse) && isBlack(phong.ambient);
     if (!isBlack(phong.ambient)) setTexture(material.textures, "ambient", whole);
     setTexture(material.textures, unlit ? "emissive" : "diffuse", whole);

@@ -8,6 +8,7 @@
 #include "formats/inventor/inventor_fields.h"
 #include "formats/model_textures.h"
 #include "shading/material.h"
+#include "shading/textures/image_map.h"
 
 namespace trace::inventor {
 
@@ -33,7 +34,7 @@ struct Painted {
   Color base;
   Real through = 0;
 };
-/// What of them counts under the picture.
+/// The channels that are used under the picture.
 Painted under(const PaintedPicture& picture, const Painted& painted);
 
 /// Puts the picture on the material.

@@ -35,7 +35,7 @@
 
 namespace trace::inventor {
 
-/// What other files bring into a scene, by path: each is read once however often it is named. Nothing while
+/// The contents of other files, by path: each is read once however often it is named. Nothing while
 /// it is read, or if it cannot be.
 using Library = std::map<std::string, std::optional<Scene>>;
 
@@ -98,7 +98,7 @@ class Reader {
   void multipleCopy(const Values& v, State& state);
   /// Objects and lights of another file, of this kind or of meshes, as if they stood here.
   void include(const Values& v, State& state);
-  /// What the file of that path holds, by which `name` names it.
+  /// The contents of the file of that path, by which `name` names it.
   Scene readPart(const std::string& path, const std::string& name);
 
   // --- transforms ---
@@ -210,7 +210,7 @@ class Reader {
   static Vec3 unit(const Vec3& v);
   void faceSet(const Values& v, State& outer);
   void remember(const Values& v, const State& outer);
-  /// What a shape of VRML97 holds itself.
+  /// The data that a shape of VRML97 has itself.
   Bindings attributes(const Values& v, State& state);
   void elevationGridNode(const Values& v, State& outer);
   void extrusionNode(const Values& v, State& outer);
@@ -222,7 +222,7 @@ class Reader {
   const Document& document_;
   Messages& messages_;
   Library& library_;
-  int nesting_;  ///< of files that name files
+  int nesting_;  ///< nesting of files that name files
   bool vrml2_;
   MeshRepairs repairs_;
   Scene scene_;
@@ -236,7 +236,7 @@ class Reader {
   std::map<const Field*, std::shared_ptr<const std::vector<Vec2>>> pairs_;
   std::map<std::tuple<const Node*, const Env*, std::shared_ptr<const Paint>>, std::shared_ptr<const Paint>>
       paints_;
-  std::map<const Scene*, std::size_t> firstMaterials_;  ///< of what other files bring
+  std::map<const Scene*, std::size_t> firstMaterials_;  ///< first materials of what other files bring
   std::map<MeshKey, Mesh> meshes_;
   Mesh made_;  ///< by mesh(), for remember()
   std::map<std::shared_ptr<const Paint>, std::vector<std::uint32_t>> numbers_;

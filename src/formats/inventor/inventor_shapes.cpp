@@ -195,7 +195,7 @@ class Spine {
     if (!(sine > 1e-12)) return {0, 0, cosine < 0 ? -1.0 : 1.0};
     return linear(Affine::rotation(axis / sine, std::atan2(sine, cosine)), {0, 0, 1});
   }
-  /// What is undefined is as before it, or as the first that is not.
+  /// An undefined value is as the one before it, or as the first that is not.
   static void fill(std::vector<Vec3>& all, const Vec3& otherwise) {
     const auto known = std::find_if(all.begin(), all.end(), [](const Vec3& v) { return v != Vec3{}; });
     Vec3 last = known == all.end() ? otherwise : *known;

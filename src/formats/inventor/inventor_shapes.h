@@ -14,10 +14,10 @@ namespace trace::inventor {
 /// Faces before anything is bound to their corners.
 struct Outline {
   std::vector<std::uint32_t> counts;  ///< corners of each face
-  std::vector<std::uint32_t> parts;   ///< of each face: the strip or polygon it is of
-  std::vector<std::uint32_t> points;  ///< of each corner
-  std::vector<std::uint32_t> orders;  ///< of each corner: its number among those the file has
-  std::vector<std::uint32_t> slots;   ///< of each corner: its place in coordIndex, the -1 counted too
+  std::vector<std::uint32_t> parts;   ///< part of each face: the strip or polygon it belongs to
+  std::vector<std::uint32_t> points;  ///< points of each corner
+  std::vector<std::uint32_t> orders;  ///< orders of each corner: its number among those the file has
+  std::vector<std::uint32_t> slots;   ///< slots of each corner: its place in coordIndex, the -1 counted too
   std::size_t bad = 0;                ///< faces that were left out
 
   void face(std::uint32_t part) {
@@ -39,7 +39,7 @@ Outline outlineOf(const Values& shape, std::string_view type, std::size_t points
 /// Points and outline of an ElevationGrid; empty if its numbers do not fit.
 struct Surface {
   std::vector<Vec3> points;
-  std::vector<Vec2> uvs;  ///< of each slot; may be empty
+  std::vector<Vec2> uvs;  ///< uvs of each slot; may be empty
   Outline outline;
 };
 

@@ -13,10 +13,10 @@ struct Dome {
   std::vector<double> angles;
 };
 
-/// The gradient of both: the ground, which is seen from straight down, before the sky, which goes on with its
-/// last colour. A ground of one colour ends where it begins and is not seen. Elevations are whole thousandths
-/// of a degree, and one of these lies between two colours that meet. Angles that do not ascend count as
-/// equal.
+/// The gradient of both: the ground, which is seen from straight down, before the sky, which continues with
+/// its last colour. A ground of one colour ends where it begins and is not seen. Elevations are whole
+/// thousandths of a degree, and one of these lies between two colours that meet. Angles that do not ascend
+/// count as equal.
 Background gradientOf(const Dome& sky, const Dome& ground);
 
 }  // namespace trace::inventor

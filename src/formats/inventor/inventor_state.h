@@ -1,4 +1,4 @@
-// What Inventor's property nodes set for the nodes that follow them.
+// The state that Inventor's property nodes set for the nodes that follow them.
 #pragma once
 
 #include <memory>

@@ -38,7 +38,7 @@ struct Node {
   Token token;
   std::vector<Field> fields;
   std::vector<const Node*> children;  ///< nodes that stand in it without a field's name
-  const Proto* proto = nullptr;       ///< of a node whose type is one
+  const Proto* proto = nullptr;       ///< proto of a node whose type is one
 };
 
 struct Proto {
@@ -52,7 +52,8 @@ struct ProtoFile;
 /// Those that a scene uses, by path, each read once; null while it is read, or if it cannot be.
 using ProtoFiles = std::map<std::string, std::shared_ptr<const ProtoFile>>;
 
-/// A parsed file; refers to the bytes it was made from.
+/// A parsed file; refers to the bytes it was made from, if these are text. A binary file is read as the text
+/// that it stands for, and places are the file as a whole.
 class Document {
  public:
   enum class Version { inventor, vrml1, vrml2 };
@@ -66,9 +67,9 @@ class Document {
   bool oldCrease() const { return oldCrease_; }  ///< the default creaseAngle is 0.5
   const std::vector<const Node*>& roots() const { return roots_; }
   std::size_t nodeCount() const { return nodes_.size(); }
-  std::size_t size() const { return size_; }  ///< of its text, in bytes
+  std::size_t size() const { return size_; }  ///< length of its text, in bytes
   const std::string& file() const { return tokens_.file(); }
-  /// Of a token of this file, or of one whose PROTOs it uses.
+  /// The place of a token of this file, or of one whose PROTOs it uses.
   Place place(const Token& token) const;
   /// The files whose PROTOs it names.
   const InputFiles& inputs() const { return inputs_; }
@@ -76,6 +77,8 @@ class Document {
  private:
   friend class Parser;
 
+  std::string made_;  ///< the text of a binary file
+  std::string_view text_;
   Version version_;
   std::size_t size_;
   bool oldCrease_ = false;
@@ -83,12 +86,12 @@ class Document {
   std::vector<std::unique_ptr<Node>> nodes_;
   std::vector<std::unique_ptr<Proto>> protos_;
   std::vector<const Node*> roots_;
-  std::unique_ptr<ProtoFiles> ownFiles_;  ///< of the scene's own file
+  std::unique_ptr<ProtoFiles> ownFiles_;  ///< own files of the scene's own file
   ProtoFiles* protoFiles_;
   InputFiles inputs_;
 };
 
-/// Does the file begin with the header of one of the text formats?
+/// Does the file begin with the header of one of the formats?
 bool hasHeader(std::string_view bytes);
 
 }  // namespace trace::inventor

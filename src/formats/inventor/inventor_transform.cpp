@@ -24,7 +24,7 @@ Affine rowMatrix(const double* m) {
 Affine transformOf(const Values& v, std::string_view scale) {
   const Vec3 center = v.vector("center", {});
   const Affine lean = turn(v.numbers("scaleOrientation"));
-  Affine unlean;  // of a rotation
+  Affine unlean;  // inverse of the lean of a rotation
   for (int i = 0; i < 3; ++i) unlean.row[i] = {lean.row[0][i], lean.row[1][i], lean.row[2][i]};
   return Affine::translation(v.vector("translation", {})) * Affine::translation(center) *
          turn(v.numbers("rotation")) * lean * Affine::scaling(v.vector(scale, {1, 1, 1})) * unlean *

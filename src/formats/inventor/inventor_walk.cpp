@@ -161,7 +161,7 @@ void Reader::check(const Values& v) {
 NodeIn Reader::nodeOf(const Values& v, std::string_view field) {
   const std::vector<NodeIn> nodes = v.nodes(field);
   const NodeIn found = nodes.empty() ? NodeIn{} : resolved(nodes.front());
-  if (found.node && field != "geometry") warnUnknownPart(*found.node);  // of that it is said when visited
+  if (found.node && field != "geometry") warnUnknownPart(*found.node);  // geometry later
   return found;
 }
 
@@ -272,7 +272,7 @@ std::string Reader::meant(std::string_view type) {
   std::vector<std::string_view> known(kIgnored.begin(), kIgnored.end());
   known.insert(known.end(), kParts.begin(), kParts.end());
   for (const auto& [name, handler] : handlers()) known.push_back(name);
-  std::sort(known.begin(), known.end());  // of two that are as near, always the same
+  std::sort(known.begin(), known.end());  // always the same of two that are equally near
   return didYouMean(type, known);
 }
 

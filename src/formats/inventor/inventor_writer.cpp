@@ -18,6 +18,7 @@
 #include "geometry/shapes/sphere.h"
 #include "scene/displacement.h"
 #include "scene/options.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace inventor {
@@ -187,7 +188,7 @@ class InventorWriter {
   }
   void add(const GoniometricLight& light) {
     fading(light);
-    warn("lights with photometric files become points that shine to all sides");
+    warn("lights with photometric files become uniform point lights");
     pointLight(light.position, light.color);
   }
   void add(const AmbientLight& light) {

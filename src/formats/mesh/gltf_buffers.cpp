@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace trace {
 namespace {
@@ -110,6 +111,65 @@ bool plainGltfPictures(json& root) {
     if (isKnownData(head) || !head.ends_with(kDataMark)) continue;
     *uri = "data:application/octet-stream;base64," + text.substr(comma + 1);
     changed = true;
+  }
+  return changed;
+}
+
+bool dropGltfFallbacks(json& root) {
+  const auto buffers = root.find("buffers"), views = root.find("bufferViews");
+  const bool areLists =
+      buffers != root.end() && buffers->is_array() && views != root.end() && views->is_array();
+  if (!areLists) return false;
+  const auto extensionOf = [](const json& of) -> const json* {
+    const json::json_pointer name("/extensions/EXT_meshopt_compression");
+    return of.is_object() && of.contains(name) && of[name].is_object() ? &of[name] : nullptr;
+  };
+  std::vector<bool> isPlain(buffers->size()), isPacked(buffers->size());
+  const auto note = [](std::vector<bool>& list, const json& owner) {
+    const auto number = owner.find("buffer");
+    if (number == owner.end() || !number->is_number_unsigned()) return;
+    if (const auto i = number->get<std::uint64_t>(); i < list.size()) list[i] = true;
+  };
+  for (const json& view : *views) {
+    if (!view.is_object()) continue;
+    const json* packed = extensionOf(view);
+    note(packed ? isPacked : isPlain, view);
+    if (packed) note(isPlain, *packed);
+  }
+  bool changed = false;
+  for (std::size_t i = 0; i < buffers->size(); ++i) {
+    json& buffer = (*buffers)[i];
+    const json* said = extensionOf(buffer);
+    const bool saysSo = said && said->value("fallback", json()) == true && !buffer.contains("uri");
+    if (!saysSo && (isPlain[i] || !isPacked[i])) continue;
+    buffer = {{"byteLength", 1u}, {"uri", "data:application/octet-stream;base64,AA=="}};
+    changed = true;
+  }
+  return changed;
+}
+
+bool dropDracoIndices(json& root) {
+  const auto meshes = root.find("meshes"), accessors = root.find("accessors");
+  const bool areLists =
+      meshes != root.end() && meshes->is_array() && accessors != root.end() && accessors->is_array();
+  if (!areLists) return false;
+  const auto isWithoutView = [&](const json& number) {
+    if (!number.is_number_unsigned() || number.get<std::uint64_t>() >= accessors->size()) return false;
+    const json& accessor = (*accessors)[number.get<std::size_t>()];
+    return accessor.is_object() && !accessor.contains("bufferView");
+  };
+  bool changed = false;
+  for (json& mesh : *meshes) {
+    const auto primitives = mesh.is_object() ? mesh.find("primitives") : mesh.end();
+    if (primitives == mesh.end() || !primitives->is_array()) continue;
+    for (json& primitive : *primitives) {
+      const bool isPacked = primitive.is_object() &&
+                            primitive.contains(json::json_pointer("/extensions/KHR_draco_mesh_compression"));
+      const auto indices = isPacked ? primitive.find("indices") : primitive.end();
+      if (indices == primitive.end() || !isWithoutView(*indices)) continue;
+      primitive.erase(indices);
+      changed = true;
+    }
   }
   return changed;
 }

@@ -2,16 +2,18 @@
 #include "formats/mesh/gltf_check.h"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "formats/mesh/gltf_check_materials.h"
+#include "formats/mesh/gltf_unpack.h"
 
 namespace trace {
 namespace {
 
 using nlohmann::json;
 
-constexpr std::string_view kDraco = "KHR_draco_mesh_compression", kMeshopt = "EXT_meshopt_compression";
 /// Extensions that the reader takes into account, and those of pictures that it may not be able to read,
 /// which it tells.
 constexpr std::string_view kRead[] = {kGltfLights,
@@ -28,6 +30,8 @@ constexpr std::string_view kRead[] = {kGltfLights,
                                       "KHR_materials_unlit",
                                       "KHR_materials_pbrSpecularGlossiness",
                                       "KHR_mesh_quantization",
+                                      kGltfDraco,
+                                      kGltfMeshopt,
                                       "EXT_mesh_gpu_instancing",
                                       "KHR_texture_transform",
                                       "KHR_texture_basisu",
@@ -67,6 +71,7 @@ class GltfCheck : private GltfMaterialCheck {
     each(root, "bufferViews", [&](const Part& view) {
       index(view, "buffer", "buffers");
       for (const char* key : {"byteOffset", "byteLength", "byteStride"}) whole(view, key);
+      extension(view, kGltfMeshopt, [&](const Part& packed) { checkMeshopt(packed); });
     });
     if (const json* all = root.find("extensions"); all && all->is_object())
       object({*all, "extensions"}, kGltfLights, [&](const Part& lights) {
@@ -99,16 +104,13 @@ class GltfCheck : private GltfMaterialCheck {
   }
 
   void checkExtensions() {
-    for (const std::string& name : names("extensionsRequired")) {
-      if (name == kDraco || name == kMeshopt) failOfCompression(name);
+    for (const std::string& name : names("extensionsRequired"))
       if (!isOneOf(name, kRead))
         fail("the file requires the extension " + inQuotes(name) + ", which is not read",
              "export the scene without it");
-    }
     std::string others;
     for (const std::string& name : names("extensionsUsed"))
-      if (!isOneOf(name, kRead) && name != kDraco && name != kMeshopt)
-        others += (others.empty() ? "" : ", ") + inQuotes(name);
+      if (!isOneOf(name, kRead)) others += (others.empty() ? "" : ", ") + inQuotes(name);
     if (!others.empty()) warn("extensions that are not read: " + others.substr(0, 400));
   }
   std::vector<std::string> names(std::string_view key) const {
@@ -121,10 +123,6 @@ class GltfCheck : private GltfMaterialCheck {
       all.push_back(name.get<std::string>());
     }
     return all;
-  }
-  [[noreturn]] void failOfCompression(std::string_view name) const {
-    fail("compressed meshes (" + std::string(name) + ") are not read",
-         "export the scene without compression");
   }
 
   void checkNode(const Part& node) {
@@ -205,9 +203,7 @@ class GltfCheck : private GltfMaterialCheck {
     knownAttributes(of);
     if (!of.find("POSITION"))
       warn(primitive.path + " has no POSITION: there is nothing to see of it", {}, "no POSITION");
-    extension(primitive, kDraco, [&](const Part&) {  // unless the file has the mesh a second time, as it is
-      if (const json* points = of.find("POSITION"); points && !hasData(*points)) failOfCompression(kDraco);
-    });
+    extension(primitive, kGltfDraco, [&](const Part& packed) { checkDraco(packed, of); });
     each(primitive, "targets", [&](const Part& target) {
       for (const auto& [key, value] : target.value.items()) {
         checkIndex(value, target.pathOf(key), "accessors");
@@ -232,8 +228,40 @@ class GltfCheck : private GltfMaterialCheck {
            didYouMean(key, kNames), "unknown " + key.substr(0, 60));
     }
   }
-  bool hasData(const json& accessor) const {
-    return (*root.find("accessors"))[accessor.get<std::size_t>()].contains("bufferView");
+  void checkDraco(const Part& packed, const Part& attributes) {
+    known(packed, {"bufferView", "attributes"});
+    required(packed, "bufferView", "the number of a buffer view");
+    index(packed, "bufferView", "bufferViews");
+    required(packed, "attributes", "an object");
+    object(packed, "attributes", [&](const Part& numbers) {
+      for (const auto& [key, value] : numbers.value.items()) {
+        whole(numbers, key);
+        if (!attributes.find(key))
+          warn(numbers.pathOf(key) + " is ignored, since the primitive has no such attribute", {},
+               "compressed " + key.substr(0, 60));
+      }
+    });
+  }
+  void checkMeshopt(const Part& packed) {
+    known(packed, {"buffer", "byteOffset", "byteLength", "byteStride", "count", "mode", "filter"});
+    required(packed, "buffer", "the number of a buffer");
+    index(packed, "buffer", "buffers");
+    for (const char* key : {"byteLength", "byteStride", "count"}) {
+      required(packed, key, "a whole number");
+      whole(packed, key, 1);
+    }
+    whole(packed, "byteOffset");
+    for (const char* key : {"byteOffset", "byteLength", "byteStride", "count"})  // tinygltf keeps an int
+      if (const json* value = packed.find(key); value && value->get<std::uint64_t>() > kMostWhole)
+        fail(packed.pathOf(key) + ": expected at most " + std::to_string(kMostWhole) + ", found " +
+             found(*value));
+    required(packed, "mode", "ATTRIBUTES, TRIANGLES or INDICES");
+    word(packed, "mode", {"ATTRIBUTES", "TRIANGLES", "INDICES"});
+    word(packed, "filter", {"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"});
+  }
+  static constexpr std::uint64_t kMostWhole = std::numeric_limits<int>::max();
+  void required(const Part& owner, std::string_view key, const char* expected) const {
+    if (!owner.find(key)) fail(owner.pathOf(key) + ": expected " + expected + ", found none");
   }
 
   void checkAccessor(const Part& accessor) {
@@ -265,8 +293,7 @@ class GltfCheck : private GltfMaterialCheck {
     number(light, "intensity", 0);
     number(light, "range", 0);
     if (light.find("range"))
-      warn(light.pathOf("range") + " is not taken into account: the light shines on what is farther away too",
-           {}, "range of lights");
+      warn(light.pathOf("range") + " is ignored: it lights objects farther away too", {}, "range of lights");
     object(light, "spot", [&](const Part& spot) {
       known(spot, {"innerConeAngle", "outerConeAngle"});
       number(spot, "innerConeAngle", 0, 1.5708);

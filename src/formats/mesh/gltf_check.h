@@ -1,5 +1,5 @@
-// What the glTF specification asks of the JSON of a file, looked at before anything is made of it: tinygltf
-// takes many a wrong value for one that is missing.
+// Requirements of the glTF specification on the JSON of a file, checked before anything is made of it:
+// tinygltf takes many a wrong value for one that is missing.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -8,9 +8,9 @@
 
 namespace trace {
 
-/// Throws Error(Fault::scene) where the specification forbids to go on: another version, an extension that is
-/// required and not read, an index of something that is not there, a value of another type. Warns of values
-/// out of their range, of properties that are not known, and of what is not read.
+/// Throws Error(Fault::scene) where the specification forbids to continue: another version, an extension that
+/// is required and not read, an index of something that is not there, a value of another type. Warns of
+/// values out of their range, of properties that are not known, and of what is not read.
 void checkGltf(const nlohmann::json& json, const Place& place, Messages& messages);
 
 }  // namespace trace

@@ -1,4 +1,4 @@
-// What the glTF specification asks of materials, textures and samplers.
+// Requirements of the glTF specification on materials, textures and samplers.
 #pragma once
 
 #include "formats/mesh/gltf_rules.h"

@@ -134,7 +134,7 @@ class GltfElements {
     return normalized_ ? std::max(value / std::numeric_limits<T>::max(), -1.0) : value;
   }
 
-  std::shared_ptr<const std::vector<unsigned char>> own_;  ///< of a sparse accessor
+  std::shared_ptr<const std::vector<unsigned char>> own_;  ///< values of a sparse accessor
   const unsigned char* first_ = nullptr;
   std::size_t count_ = 0, components_ = 1, size_ = 1, stride_ = 1;
   int type_ = 0;

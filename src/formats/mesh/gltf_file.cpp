@@ -13,6 +13,7 @@
 #include "formats/mesh/gltf_check.h"
 #include "formats/mesh/gltf_json.h"
 #include "formats/mesh/gltf_tree.h"
+#include "formats/mesh/gltf_unpack.h"
 #include "formats/mesh/gltf_unused.h"
 #include "formats/mesh/gltf_upgrade.h"
 
@@ -136,6 +137,7 @@ tinygltf::Model checkedGltf(const std::string& file, std::string_view bytes, con
                     errors.substr(kMissing.size(), errors.find('\n') - kMissing.size()) + "\" that it names");
   if (!good)
     throw Error(Fault::scene, place, "not a sound glTF file: " + errors.substr(0, errors.find('\n')));
+  unpackGltf(model, place, messages);
   return model;
 }
 
@@ -147,7 +149,9 @@ tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, cons
   std::string changed;
   const bool isOld = isGltf1(json);
   if (isOld) json = upgradedGltf(json, place);
-  if (plainGltfPictures(json) || isOld) {
+  const bool hasPictures = plainGltfPictures(json), hasFallbacks = dropGltfFallbacks(json),
+             hasDraco = dropDracoIndices(json);
+  if (hasPictures || hasFallbacks || hasDraco || isOld) {
     changed = upgradedGltfFile(json, bytes);
     bytes = changed;
   }

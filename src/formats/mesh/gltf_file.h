@@ -16,8 +16,8 @@ namespace trace {
 /// The magic of a binary file.
 bool isBinaryGltf(std::string_view bytes);
 
-/// What checkGltf() finds is told. Files that it names are read, and noted in `inputs`. Throws
-/// Error(Fault::scene). Every index and range of accessors and views has yet to be checked.
+/// Reads the file; findings of checkGltf() become messages. Files that it names are read, and noted in
+/// `inputs`. Throws Error(Fault::scene). Every index and range of accessors and views has yet to be checked.
 tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, const Place& place,
                            InputFiles& inputs, Messages& messages);
 

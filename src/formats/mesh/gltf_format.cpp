@@ -62,7 +62,7 @@ class GltfReader {
   }
 
  private:
-  /// Each byte may be used so often, in this many meshes: a small file must not become a huge scene.
+  /// The number of meshes that may use each byte: a small file must not become a huge scene.
   static constexpr std::uint64_t kMostUses = 100;
   static constexpr std::uint32_t kNoPoint = 0xffffffff;
 
@@ -300,7 +300,7 @@ class GltfReader {
   Model model_;  // parsing notes files in it
   tinygltf::Model gltf_;
   std::optional<GltfPose> pose_;
-  std::map<int, std::vector<Object>> parts_;  ///< of meshes that nothing bends
+  std::map<int, std::vector<Object>> parts_;  ///< parts of meshes without a skin
   std::uint64_t allowance_ = 1 << 20;         ///< bytes of accessors that may still be read
   Unique<Vec3f> colors_;
   MeshRepairs repairs_;

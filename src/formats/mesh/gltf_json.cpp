@@ -82,7 +82,7 @@ class WhatIsWrong : public nlohmann::json_sax<json> {
     return text_.substr(start, std::min(text_.find('\n', start), end) - start);
   }
 
-  /// What ends after `read` characters and has `length`; if that is 0, the word or mark there.
+  /// The text that ends after `read` characters and has `length`; if that is 0, the word or mark there.
   std::string_view foundAt(std::size_t read, std::size_t length) const {
     const auto isLetter = [](char c) { return (c | 32) >= 'a' && (c | 32) <= 'z'; };
     std::size_t end = std::min(read, text_.size());
@@ -97,7 +97,7 @@ class WhatIsWrong : public nlohmann::json_sax<json> {
   std::string_view text_;
 };
 
-/// What takes brackets apart is recursive. The offset of the bracket that is one too deep; npos if none is.
+/// The parser of brackets is recursive. The offset of the bracket that is one too deep; npos if none is.
 std::size_t tooDeep(std::string_view text) {
   int depth = 0;
   bool inString = false;

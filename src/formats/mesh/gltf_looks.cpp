@@ -14,6 +14,8 @@
 #include "formats/mesh/gltf_material.h"
 #include "formats/mesh/gltf_numbers.h"
 #include "formats/mesh/gltf_values.h"
+#include "shading/materials/principled.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {
@@ -81,7 +83,7 @@ struct GltfLooks::Reader {
   const Place place;
   Messages& messages;
   using UvSets = GltfLooks::UvSets;
-  std::vector<UvSets> uvSets{};    ///< of materials
+  std::vector<UvSets> uvSets{};    ///< uv sets of materials
   std::map<int, Pixels> inFile{};  ///< pictures in the file
   InsidePictures inside{};
   UnusedTextures unused{};
@@ -104,13 +106,13 @@ struct GltfLooks::Reader {
 
   /// Tells what the material says and its model has no place for.
   Material checked(const tinygltf::Material& from, const MetallicRoughness& m, Material material) {
-    const bool principled = std::holds_alternative<Principled>(material.model);
+    const bool principled = material.model.is<Principled>();
     if (m.metallicRoughnessMap && !principled && !textureOf(material.textures, "roughness"))
       note(from.pbrMetallicRoughness.metallicRoughnessTexture.index);
     const auto lacks = [&](bool has, const char* what) {
       if (has && !principled && !m.unlit)
         messages.warn(place,
-                      "material \"" + from.name + "\" lets light through: its " + what + " is not rendered");
+                      "material \"" + from.name + "\" transmits light: its " + what + " is not rendered");
     };
     lacks(m.iridescence > 0, "iridescence");
     lacks(m.clearcoat > 0, "clear coat");
@@ -188,13 +190,14 @@ struct GltfLooks::Reader {
     return map;
   }
 
-  /// The number of its picture, perhaps of one of another kind that an extension names; -1 if it has none.
+  /// The number of its picture: of a WebP one, if it has that too; where it has no other, of one that an
+  /// extension names and nobody may be able to read. -1 if it has none.
   int imageOf(int texture) const {
     if (!isIndex(texture, gltf.textures.size())) return -1;
     const tinygltf::Texture& from = gltf.textures[static_cast<std::size_t>(texture)];
-    int source = from.source;
-    for (const char* other :
-         {"EXT_texture_webp", "EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"})
+    int source = wholeOf(extension(from.extensions, "EXT_texture_webp", "source", -1));
+    if (source < 0) source = from.source;
+    for (const char* other : {"EXT_texture_avif", "KHR_texture_basisu", "MSFT_texture_dds"})
       if (source < 0) source = wholeOf(extension(from.extensions, other, "source", -1));
     return isIndex(source, gltf.images.size()) ? source : -1;
   }

@@ -10,6 +10,11 @@
 #include "base/match.h"
 #include "formats/mesh/gltf_model.h"
 #include "formats/model_textures.h"
+#include "shading/materials/principled.h"
+#include "shading/materials/rough_glass.h"
+#include "shading/materials/thin_glass.h"
+#include "shading/textures/image_map.h"
+#include "shading/textures/mix.h"
 
 namespace trace {
 namespace {
@@ -22,7 +27,7 @@ Texture channelOf(ImageMap map, Channel channel) {
   return TextureNode{.model = std::move(map)};
 }
 
-/// What is mirrored where the base colour is textured: that of metals is their colour.
+/// The reflectance where the base colour is textured: that of metals is their colour.
 void textureMirror(Material& material, std::string_view field, Color& constant, const Color& plastic,
                    const MetallicRoughness& m, const Texture& base) {
   if (m.metallic == 0 || isBlack(constant)) return;
@@ -51,12 +56,9 @@ class Painted {
   }
 
  private:
-  Phong* phong() { return std::get_if<Phong>(&material_.model); }
-  bool isPrincipled() const { return std::holds_alternative<Principled>(material_.model); }
-  bool isGlass() const {
-    return std::holds_alternative<RoughGlass>(material_.model) ||
-           std::holds_alternative<ThinGlass>(material_.model);
-  }
+  Phong* phong() { return material_.model.edit<Phong>(); }
+  bool isPrincipled() const { return material_.model.is<Principled>(); }
+  bool isGlass() const { return material_.model.is<RoughGlass>() || material_.model.is<ThinGlass>(); }
 
   void put(std::string_view field, const Texture& texture) { setTexture(material_.textures, field, texture); }
   void put(std::string_view field, const std::optional<ImageMap>& map) {
@@ -89,8 +91,7 @@ class Painted {
       ambient = ambient ? product(*ambient, open) : open;
     }
     if (ambient) put(kAmbient, *ambient);
-    if (std::holds_alternative<RoughGlass>(material_.model))
-      put("roughness", m_.metallicRoughnessMap, Channel::green);
+    if (material_.model.is<RoughGlass>()) put("roughness", m_.metallicRoughnessMap, Channel::green);
     if (isPrincipled()) paintPrincipled();
     putNormals("bump", m_.normalMap);
     if (m_.normalMap) material_.bump = m_.normalScale;
@@ -140,7 +141,7 @@ class Painted {
     TextureNode roughness{.model = Mix{.a = Color(1), .b = Color(m_.roughness), .amount = 1}};
     setTexture(roughness.inputs, "amount", channelOf(*m_.glossyMap, Channel::alpha));
     put("roughness", Texture(std::move(roughness)));
-    std::get<Principled>(material_.model).roughness = 1;
+    material_.model.edit<Principled>()->roughness = 1;
   }
 
   void paintHoles() {
@@ -166,13 +167,16 @@ Material toMaterial(std::string name, const MetallicRoughness& m) {
 }
 
 Color baseColorOf(const Material& material) {
-  if (const auto* phong = std::get_if<Phong>(&material.model)) return phong->diffuse;
-  return match(material.model, [](const auto& said) {
-    if constexpr (requires { said.color; })
-      return said.color;
-    else
-      return said.emissive;
+  if (const auto* phong = material.model.as<Phong>()) return phong->diffuse;
+  Color emissive;
+  std::optional<Color> color;
+  forEachField(material.model, [&]<class Value>(const ModelField& field, const Value& value) {
+    if constexpr (std::is_same_v<Value, Color>) {
+      if (field.keyword == kColor) color = value;
+      if (field.keyword == kEmissive) emissive = value;
+    }
   });
+  return color.value_or(emissive);
 }
 
 }  // namespace trace

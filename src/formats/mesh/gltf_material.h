@@ -6,24 +6,25 @@
 
 #include "math/color.h"
 #include "shading/material.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 
-/// What of a glTF material Trace uses, with the defaults of the specification.
+/// The parts of a glTF material that Trace uses, with the defaults of the specification.
 struct MetallicRoughness {
   enum class Alpha { opaque, mask, blend };
 
   Color baseColor{1}, emissive;
   double opacity = 1;  ///< alpha of the base colour
   Alpha alpha = Alpha::opaque;
-  double cutoff = 0.5;  ///< of a mask
+  double cutoff = 0.5;  ///< cutoff of a mask
   double metallic = 1, roughness = 1;
   std::optional<Color> glossy;  ///< what it mirrors, of KHR_materials_pbrSpecularGlossiness
   bool unlit = false;           ///< it shows its base colour in any light
   bool doubleSided = false;
   bool paintsPoints = false;  ///< some mesh has colours of points, which multiply the base colour
 
-  // What light passes through. One that is not solid is a thin sheet, which bends nothing.
+  // Transmission. A material that is not solid is a thin sheet, which does not refract.
   double transmission = 0, index = 1.5;
   bool solid = false;
   Color attenuationColor{1};

@@ -5,6 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shading/materials/lambert.h"
+#include "shading/materials/principled.h"
+#include "shading/materials/rough_glass.h"
+#include "shading/materials/thin_glass.h"
+
 namespace trace {
 
 double evenOpacity(const MetallicRoughness& m) {
@@ -121,7 +126,7 @@ MaterialModel modelOf(const MetallicRoughness& m) {
 
 Phong toPhong(const MetallicRoughness& m) {
   const double polish = polishOf(m);
-  const double alpha = m.roughness * m.roughness;  // of the distribution, by the specification
+  const double alpha = m.roughness * m.roughness;  // alpha of the distribution, by the specification
   Phong phong;
   phong.diffuse = m.baseColor * ((1 - m.metallic) * (1 - m.transmission));
   // Metals have no diffuse light to give back; without some ambient light a rough one would be black.

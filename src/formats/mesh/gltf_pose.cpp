@@ -151,7 +151,7 @@ std::optional<std::pair<Real, Real>> animate(tinygltf::Model& gltf, SceneTime& t
   if (gltf.animations.empty()) return keys;
   const tinygltf::Animation& animation = gltf.animations.front();
   for (const tinygltf::AnimationChannel& channel : animation.channels) {
-    if (!isIndex(channel.target_node, gltf.nodes.size())) continue;  // of an extension
+    if (!isIndex(channel.target_node, gltf.nodes.size())) continue;  // channel of an extension
     tinygltf::Node& node = gltf.nodes[static_cast<std::size_t>(channel.target_node)];
     const auto& path = channel.target_path;
     std::vector<double>* const to = path == "translation" ? &node.translation

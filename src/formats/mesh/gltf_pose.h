@@ -60,8 +60,8 @@ class GltfPose {
   const tinygltf::Model& gltf_;
   ReadAccessor elements_;
   const Place& place_;
-  std::vector<Affine> worldFromNode_;          ///< of each node
-  std::map<int, std::vector<Affine>> joints_;  ///< of skins: from the mesh as it was modelled to the world
+  std::vector<Affine> worldFromNode_;          ///< world from node of each node
+  std::map<int, std::vector<Affine>> joints_;  ///< skins: from the modelled mesh to the world
   std::size_t lostJoints_ = 0;
 };
 

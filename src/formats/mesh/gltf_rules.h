@@ -1,4 +1,4 @@
-// What checks of glTF's JSON are made of: parts of the tree with their paths, and what is asked of their
+// Parts of the checks of glTF's JSON: parts of the tree with their paths, and what is asked of their
 // values.
 #pragma once
 

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "formats/mesh/gltf_unpack.h"
+
 namespace trace {
 namespace {
 
@@ -84,7 +86,10 @@ class UseWalk {
     } else if (value.is_object()) {
       const bool isAttributes = key == "attributes" || key == "targets";
       for (const auto& [name, one] : value.items())
-        if (name != "extras") look(one, isAttributes ? "attribute" : std::string_view(name));
+        if (name == kGltfDraco)  // its attributes are numbered apart
+          look(one.is_object() ? one.value("bufferView", json()) : json(), "bufferView");
+        else if (name != "extras")
+          look(one, isAttributes ? "attribute" : std::string_view(name));
     }
   }
 

@@ -1,4 +1,4 @@
-// What of a glTF file the scene that is shown does not use.
+// Parts of a glTF file that the shown scene does not use.
 #pragma once
 
 #include <cstddef>

@@ -19,6 +19,7 @@
 #include "formats/mesh/world_meshes.h"
 #include "formats/picture_files.h"
 #include "geometry/mesh/mesh.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {

@@ -85,7 +85,7 @@ const Row* rowOf(const std::array<Row, N>& rows, std::string_view key) {
 
 std::string quoted(std::string_view word) { return "\"" + std::string(word.substr(0, 40)) + "\""; }
 
-/// What an option of a single word can be told.
+/// The values of an option of a single word.
 bool isOptionValue(std::string_view word) {
   constexpr std::array<std::string_view, 19> kValues{
       "on",         "off",       "r",         "g",          "b",      "m",        "l",
@@ -206,7 +206,7 @@ class MtlCheck {
                               : "d 0 and Tr 0 contradict each other: the material is read as opaque");
       plain_ += "d 1\n";
     } else if (dissolve_ == 0) {
-      warn(opacityAt_, "d 0 lets all light through the material: it is invisible, but for its highlights");
+      warn(opacityAt_, "d 0 makes the material transparent: it is invisible, except for its highlights");
     }
     dissolve_.reset();
     transparency_.reset();

@@ -1,4 +1,4 @@
-// What the lines of a material file of an OBJ say that its reader, tinyobj, passes over in silence.
+// The lines of a material file of an OBJ that its reader, tinyobj, passes over in silence.
 #pragma once
 
 #include <functional>

@@ -31,7 +31,7 @@
 namespace trace {
 namespace {
 
-/// What one corner of a face refers to; -1 for nothing.
+/// The indices of one corner of a face; -1 for nothing.
 struct Corner {
   std::int32_t point, uv, normal;
 };
@@ -47,8 +47,8 @@ struct Part {
   bool hasNormals = false, hasUvs = false;
 };
 
-/// What white is in the colours of points: 255 where all are whole numbers and one is beyond what rounding
-/// and bright light make of 1.
+/// The value of white in the colours of points: 255 where all are whole numbers and one is beyond what
+/// rounding and bright light make of 1.
 float whiteOf(const std::vector<Vec3f>& colors) {
   float most = 0;
   for (const Vec3f& c : colors)
@@ -70,7 +70,7 @@ constexpr std::array<std::string_view, 15> kOfCurves{"vp",   "cstype", "deg",   
 constexpr std::array<std::string_view, 10> kNotShown{"bevel",     "c_interp", "d_interp", "lod", "shadow_obj",
                                                      "trace_obj", "maplib",   "usemap",   "csh", "call"};
 
-/// What a corner says of a face: numbers of a point, a uv and a normal; 0 for none.
+/// The numbers of a corner of a face: of a point, a uv and a normal; 0 for none.
 struct CornerNumbers {
   std::int64_t point = 0, uv = 0, normal = 0;
 };
@@ -417,7 +417,7 @@ class ObjReader {
   std::string name_;
   std::string_view material_;
   std::string_view smooth_;  ///< the line of the smoothing group in force; empty for none
-  std::map<std::pair<std::string, std::string_view>, std::size_t> numbers_;  ///< of parts
+  std::map<std::pair<std::string, std::string_view>, std::size_t> numbers_;  ///< numbers of parts
   std::vector<std::unique_ptr<Part>> parts_;
   Part* part_ = nullptr;  ///< that of name_ and material_, once known
   std::vector<CornerNumbers> corners_;

@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "formats/model_textures.h"
+#include "shading/materials/principled.h"
 #include "shading/materials/rough_glass.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {
@@ -43,7 +45,7 @@ Principled mtlPrincipled(const tinyobj::material_t& mtl) {
   return model;
 }
 
-/// What the statements of glass say, with the roughness that others add.
+/// The glass that the statements describe, with the roughness that others add.
 RoughGlass mtlGlass(const tinyobj::material_t& mtl) {
   RoughGlass glass;
   glass.color = color(mtl.transmittance);
@@ -130,7 +132,7 @@ void addRelief(const tinyobj::material_t& mtl, const Map& map, const MtlPictures
 
 /// Puts the pictures of the MTL material on it.
 void addTextures(const tinyobj::material_t& mtl, const MtlPictures& pictures, Material& material) {
-  const auto* phong = std::get_if<Phong>(&material.model);
+  const auto* phong = material.model.as<Phong>();
   const Color ambient = phongOf(material.model).ambient;
   const auto map = [&](const std::string& picture, const tinyobj::texture_option_t& option) {
     ImageMap made = toMap(pictures.nameOf(picture), option);
@@ -147,7 +149,7 @@ void addTextures(const tinyobj::material_t& mtl, const MtlPictures& pictures, Ma
     put("specular", mtl.specular_texname, mtl.specular_texopt);
     put("shininess", mtl.specular_highlight_texname, mtl.specular_highlight_texopt);
     if (!isBlack(phong->reflective)) put("reflective", mtl.specular_texname, mtl.specular_texopt);
-  } else if (std::holds_alternative<RoughGlass>(material.model)) {
+  } else if (material.model.is<RoughGlass>()) {
     put("roughness", mtl.roughness_texname, mtl.roughness_texopt);
     for (const std::string* other :
          {&mtl.sheen_texname, &mtl.specular_texname, &mtl.specular_highlight_texname})
@@ -159,7 +161,7 @@ void addTextures(const tinyobj::material_t& mtl, const MtlPictures& pictures, Ma
     put("specular_color", mtl.specular_texname, mtl.specular_texopt);
     if (!mtl.specular_highlight_texname.empty()) pictures.unused(mtl.specular_highlight_texname);
   }
-  // What is painted is painted in the ambient light too.
+  // A painted surface is painted in the ambient light too.
   if (!mtl.ambient_texname.empty())
     put("ambient", mtl.ambient_texname, mtl.ambient_texopt);
   else if (!isBlack(ambient))
@@ -204,12 +206,12 @@ std::optional<Material> materialOf(const tinyobj::material_t& mtl, const MtlPict
 void scaleHeights(Material& material, Real longestSide) {
   constexpr Real kHeight = 0.005;  // where the picture is white
   const Texture* texture = textureOf(material.textures, "bump");
-  const auto* map = texture ? std::get_if<ImageMap>(&(*texture)->model) : nullptr;
+  const auto* map = texture ? (*texture)->model.as<ImageMap>() : nullptr;
   if (map && map->relief == Relief::heights) material.bump *= kHeight * longestSide;
 }
 
 Color paintedColor(const MaterialModel& model) {
-  const auto* principled = std::get_if<Principled>(&model);
+  const auto* principled = model.as<Principled>();
   return principled ? principled->color : phongOf(model).diffuse;
 }
 

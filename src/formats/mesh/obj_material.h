@@ -12,7 +12,7 @@ struct material_t;
 
 namespace trace {
 
-/// What its pictures are called, and what is in them.
+/// The names of its pictures, and the pictures.
 struct MtlPictures {
   std::function<Place(const std::string&)> placeOf;       ///< where the MTL file names it
   std::function<std::string(const std::string&)> nameOf;  ///< as seen from the mesh's file
@@ -26,7 +26,7 @@ std::optional<Material> materialOf(const tinyobj::material_t& mtl, const MtlPict
 /// MTL does not say how high heights stand: `bump` becomes a part of the model's longest side.
 void scaleHeights(Material& material, Real longestSide);
 
-/// What colours of points multiply.
+/// The fields that colours of points multiply.
 Color paintedColor(const MaterialModel& model);
 
 }  // namespace trace

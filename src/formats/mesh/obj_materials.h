@@ -61,7 +61,7 @@ class ObjMaterials {
   UnusedTextures unused_;
   std::vector<tinyobj::material_t> materials_;
   std::map<std::string, int> numbers_;
-  std::map<std::string, Place, std::less<>> places_;  ///< of the names of pictures
+  std::map<std::string, Place, std::less<>> places_;  ///< places of the names of pictures
   std::set<std::string> readFiles_;
   std::set<std::string_view> undefined_;
   bool missing_ = false;  ///< a file of materials

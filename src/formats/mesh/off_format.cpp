@@ -15,7 +15,7 @@
 namespace trace {
 namespace {
 
-/// What the first word says of each point.
+/// The data of each point by the first word.
 struct Kind {
   bool uv = false, color = false, normal = false;
 };
@@ -226,7 +226,7 @@ class OffReader {
   }
 
   const std::string& file_;
-  std::size_t size_;  ///< of the file, in bytes
+  std::size_t size_;  ///< size of the file, in bytes
   Words words_;
   Messages& messages_;
   MeshData mesh_;

@@ -16,6 +16,7 @@
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {
@@ -27,7 +28,7 @@ struct Face {
   std::size_t first, count, number;
 };
 
-/// What makes two corners the same point.
+/// The data that make two corners the same point.
 struct SplitCorner {
   std::uint32_t point, color;
   float u, v;

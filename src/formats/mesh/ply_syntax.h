@@ -24,9 +24,9 @@ enum class Encoding : std::uint8_t { text, little, big };
 
 struct Property {
   std::string name;
-  Type type;  ///< of the number, or of a list's items
+  Type type;  ///< type of the number, or of a list's items
   bool isList = false;
-  Type countType = Type::uint8;  ///< of a list
+  Type countType = Type::uint8;  ///< count type of a list
 };
 
 struct Element {

@@ -54,7 +54,7 @@ class Solid {
     p = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};  // no negative zero: it would not equal the other
     corners_.push_back(points_.number(p));
   }
-  /// Of facets whose corners run the other way round than their normals say; they are turned.
+  /// Warns of facets whose corners run the other way round than their normals say; they are turned.
   std::size_t turned() const { return turned_; }
 
   void finish(std::string name, const Place& place, Model& model, MeshRepairs& repairs) {
@@ -200,7 +200,7 @@ class TextReader {
   MeshRepairs& repairs_;
   Messages& messages_;
   std::size_t facets_ = 0, broken_ = 0, turned_ = 0;
-  std::optional<Error> first_;  ///< of the broken ones
+  std::optional<Error> first_;  ///< first of the broken facets
   Model model_;
 };
 

@@ -9,6 +9,7 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellation.h"
 #include "scene/displacement.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 namespace {
@@ -29,7 +30,7 @@ MeshData transformed(const MeshData& mesh, const Affine& worldFromObject) {
 
 /// The picture, if the texture is one that lies as the texture coordinates have it, or half a texel beside.
 const ImageMap* plainPicture(const Texture& texture) {
-  const auto* map = std::get_if<ImageMap>(&texture->model);
+  const auto* map = texture->model.as<ImageMap>();
   if (!map || !texture->inputs.empty() || !(texture->placement == TexturePlacement{})) return nullptr;
   if (map->wrapU != map->wrapV || map->wrapU == Wrap::mirror) return nullptr;
   ImageMap usual{.file = map->file, .wrapU = map->wrapU, .wrapV = map->wrapV};
@@ -84,10 +85,10 @@ std::optional<MeshData> ShapeTriangles::of(const Shape& shape, bool mapped) {
 
 void ShapeTriangles::report(const Place& place, const std::string& known, bool nothing,
                             Messages& messages) const {
-  const char *kHolds = "a .ray file holds every shape",
+  const char *kHolds = "a .ray file stores every shape",
              *kWhy =
-                 "no mesh follows what has no end, or folds finer than a 64th of the shape; a .ray file "
-                 "holds every shape";
+                 "no mesh can follow an infinite shape, or one that folds finer than a 64th of its size; a "
+                 ".ray file stores every shape";
   std::string kinds;
   for (const auto& [kind, count] : leftOut_)
     kinds += (kinds.empty() ? "" : ", ") + std::to_string(count) + " " + kind;

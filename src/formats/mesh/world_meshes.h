@@ -10,6 +10,7 @@
 #include "formats/format.h"
 #include "geometry/mesh/mesh.h"
 #include "scene/scene.h"
+#include "shading/textures/image_map.h"
 
 namespace trace {
 

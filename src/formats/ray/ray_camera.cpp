@@ -125,7 +125,7 @@ class CameraReader {
     } else if (viewdir_.has_value() != updir_.has_value()) {
       findings_.error(viewdir_ ? *viewdir_ : *updir_,
                       viewdir_ ? "viewdir: expected updir as well" : "updir: expected viewdir as well",
-                      viewdir_ ? "add what is up, as in updir = (0, 1, 0)" : "");
+                      viewdir_ ? "add the up direction, as in updir = (0, 1, 0)" : "");
       return;
     }
     if (viewdir_ && !hasDirection(camera_.viewdir))

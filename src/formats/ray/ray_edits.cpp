@@ -142,7 +142,7 @@ std::string TextEdits::text(std::size_t begin, std::size_t end) const {
   std::size_t at = begin;
   for (const Edit& edit : edits()) {
     if (edit.begin < begin || edit.end > end) continue;
-    const bool inside = edit.begin < at;  // of what is replaced as a whole
+    const bool inside = edit.begin < at;  // inside a text that is replaced as a whole
     if (inside && (!edit.text.empty() || edit.end <= at)) continue;
     if (!inside) result += source_.substr(at, edit.begin - at);
     result += edit.text;
@@ -259,7 +259,7 @@ void sayField(TextEdits& edits, const Item& block, std::string_view keyword, con
 }
 
 void changeFields(TextEdits& edits, const Item& block, const Shape& from, const Shape& to) {
-  const std::vector<AnyField> was = fieldsOf(from), is = fieldsOf(to);
+  const std::vector<AnyField> was = from.fields(), is = to.fields();
   for (std::size_t i = 0; i < is.size(); ++i)
     match(is[i].value, [&]<class Value>(const Value& value) {
       const Value& before = *std::get_if<Value>(&was[i].value);

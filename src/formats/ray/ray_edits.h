@@ -97,7 +97,7 @@ void changeFields(TextEdits& edits, const Item& block, const Struct& from, const
     if (from.*f.member != value) changeField(edits, block, f.keyword, value);
   });
 }
-/// The same of shapes of one type.
+/// Edits of shapes of one type.
 void changeFields(TextEdits& edits, const Item& block, const Shape& from, const Shape& to);
 
 }  // namespace trace::rayfile

@@ -55,8 +55,8 @@ class Evaluator : protected Names {
     bool done() const { return at == nodes.size(); }
   };
   Op opAt(std::uint32_t index) const { return static_cast<Op>(static_cast<int>(node(index).number)); }
-  /// By precedence climbing. Where it is not `live`, nothing is worked out, and the result means nothing: the
-  /// other side of a condition may be a recursion without end.
+  /// By precedence climbing. Where it is not `live`, nothing is computed, and the result means nothing: the
+  /// other side of a condition may be a recursion infinite.
   Value expression(Cursor& cursor, int least, const Scoped& scope, bool live);
   Value operand(std::uint32_t index, const Scoped& scope);
   Value operated(Cursor& cursor, std::uint32_t operation, Op op, int level, Value left, const Scoped& scope,

@@ -1,4 +1,4 @@
-// `ray expand`: a scene as plain text, in which loops, functions, names and included files are worked out
+// `ray expand`: a scene as plain text, in which loops, functions, names and included files are computed
 // (docs/language.md). It renders the same, bit for bit.
 #pragma once
 

@@ -10,6 +10,7 @@
 #include "formats/ray/ray_texture.h"
 #include "formats/textures.h"
 #include "image/codec.h"
+#include "image/picture_name.h"
 
 namespace trace::rayfile {
 
@@ -139,10 +140,12 @@ bool read(Findings& findings, std::string_view name, const Item& value, EnumValu
   return false;
 }
 
-bool assignField(Findings& findings, Shape& target, const Item& field) {
-  const std::string_view key = canonical(field.key(), target.keyword());
+namespace {
+
+template <class Any>
+bool assignTo(Findings& findings, Any& target, const Item& field, std::string_view key) {
   bool found = false;
-  editEachField(target, [&](const AnyField& f, auto& value) {
+  editEachField(target, [&](const auto& f, auto& value) {
     if (f.keyword != key) return;
     found = true;
     readField(findings, f, field.value(), value);
@@ -150,17 +153,34 @@ bool assignField(Findings& findings, Shape& target, const Item& field) {
   return found;
 }
 
-void checkRange(Findings& findings, const Shape& target, const Item& field) {
-  const std::string_view key = canonical(field.key(), target.keyword());
-  forEachField(target, [&](const AnyField& f, const auto& value) {
-    if (f.keyword == key) checkRange(findings, target.keyword(), f, value, field);
+template <class Any>
+void checkRangeOf(Findings& findings, const Any& target, const Item& field, std::string_view key,
+                  std::string_view owner) {
+  forEachField(target, [&](const auto& f, const auto& value) {
+    if (f.keyword == key) checkRange(findings, owner, f, value, field);
   });
 }
 
-std::vector<std::string_view> keywords(const Shape& shape, std::initializer_list<std::string_view> more) {
-  std::vector<std::string_view> words(more);
-  for (const AnyField& field : fieldsOf(shape)) words.push_back(field.keyword);
-  return words;
+}  // namespace
+
+bool assignField(Findings& findings, Shape& target, const Item& field) {
+  return assignTo(findings, target, field, canonical(field.key(), target.keyword()));
+}
+bool assignField(Findings& findings, MaterialModel& target, const Item& field) {
+  return assignTo(findings, target, field, canonical(field.key()));
+}
+bool assignField(Findings& findings, TextureModel& target, const Item& field) {
+  return assignTo(findings, target, field, canonical(field.key()));
+}
+
+void checkRange(Findings& findings, const Shape& target, const Item& field) {
+  checkRangeOf(findings, target, field, canonical(field.key(), target.keyword()), target.keyword());
+}
+void checkRange(Findings& findings, const MaterialModel& target, const Item& field, std::string_view owner) {
+  checkRangeOf(findings, target, field, canonical(field.key()), owner);
+}
+void checkRange(Findings& findings, const TextureModel& target, const Item& field, std::string_view owner) {
+  checkRangeOf(findings, target, field, canonical(field.key()), owner);
 }
 
 std::string written(Real value, int digits) {
@@ -209,8 +229,11 @@ bool read(Findings& findings, std::string_view name, const Item& value, Heights&
     return true;
   }
   try {
-    const Picture picture =
-        decodePicture(readBeside(findings.syntax().file(), file, findings.scene().inputs), file);
+    const std::string bytes =
+        readBeside(findings.syntax().file(), pictureName(file).file, findings.scene().inputs);
+    const Picture picture = decodePicture(bytes, file);
+    if (const std::string remark = pictureRemark(bytes, file); !remark.empty())
+      findings.warn(value, "\"" + file + "\": " + remark);
     if (min(picture.width, picture.height) < 2 || max(picture.width, picture.height) > kMostSide) {
       findings.error(value, std::string(name) + ": expected a picture of 2 to " + std::to_string(kMostSide) +
                                 " pixels along each side");
@@ -273,7 +296,10 @@ void warnOfRange(Findings& findings, std::string_view owner, std::string_view na
   const std::string field = std::string(name) + " of " + std::string(owner);
   const std::string range =
       most == kNoLimit ? "at least " + toText(least) : toText(least) + " to " + toText(most);
-  findings.warn(at, field + ": expected " + range + ", found " + toText(value), {}, "range: " + field);
+  const bool ofBytes = value > 1 && value <= 255 && most == 1 && at.keyed() && at.value().is(Kind::tuple);
+  findings.warn(at, field + ": expected " + range + ", found " + toText(value),
+                ofBytes ? "a colour goes from 0 to 1; #ff8000 is one as picture programs write it" : "",
+                "range: " + field);
 }
 
 }  // namespace trace::rayfile

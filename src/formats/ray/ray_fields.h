@@ -17,9 +17,10 @@
 #include "geometry/shapes/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
+#include "shading/formula_text.h"
 #include "shading/lights/photometry.h"
-#include "shading/textures/formula.h"
-#include "shading/textures/image_map.h"
+#include "shading/material.h"
+#include "shading/pixels.h"
 
 namespace trace::rayfile {
 
@@ -47,7 +48,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, FormulaT
 /// The name of a photometric file beside the scene, which is read.
 bool read(Findings& findings, std::string_view name, const Item& value, PhotometryFile& to);
 
-/// What read() reads as the same value; with `digits` digits that count, if that is not 0.
+/// The text that read() reads as the same value; with `digits` digits that count, if that is not 0.
 std::string written(Real value, int digits);
 std::string written(bool value, int digits);
 std::string written(int value, int digits);
@@ -92,7 +93,7 @@ bool read(Findings& findings, std::string_view name, const Item& value, Enum& to
   return read(findings, name, value, any);
 }
 
-/// What an element of a list looks like.
+/// The form of an element of a list.
 inline std::string form(const std::string&) { return "\"text\""; }
 inline std::string form(Real) { return "number"; }
 inline std::string form(const Color&) { return "(red, green, blue)"; }
@@ -134,7 +135,7 @@ bool numbers(const Item& tuple, Real* to, int count);
 
 /// The keyword that `word` is a synonym of, or `word`.
 std::string_view canonical(std::string_view word);
-/// The same of a field of a shape: those that students named otherwise, too.
+/// The node of a field of a shape: those that students named otherwise, too.
 std::string_view canonical(std::string_view word, std::string_view shape);
 
 /// read() of the value of the field `f`, whose range is said of a whole number that no int can hold.
@@ -168,6 +169,8 @@ bool assignField(Findings& findings, Struct& target, const Item& field) {
   return found;
 }
 bool assignField(Findings& findings, Shape& target, const Item& field);
+bool assignField(Findings& findings, MaterialModel& target, const Item& field);
+bool assignField(Findings& findings, TextureModel& target, const Item& field);
 
 /// Warns, as for a person, that a number is outside its range.
 void warnOfRange(Findings& findings, std::string_view owner, std::string_view name, double least, double most,
@@ -204,6 +207,8 @@ void checkRange(Findings& findings, const Struct& target, const Item& field,
   });
 }
 void checkRange(Findings& findings, const Shape& target, const Item& field);
+void checkRange(Findings& findings, const MaterialModel& target, const Item& field, std::string_view owner);
+void checkRange(Findings& findings, const TextureModel& target, const Item& field, std::string_view owner);
 
 /// The keywords of Struct's fields, and more.
 template <class Struct>
@@ -212,6 +217,12 @@ std::vector<std::string_view> keywords(std::initializer_list<std::string_view> m
   forEachField<Struct>([&](const auto& f) { words.push_back(f.keyword); });
   return words;
 }
-std::vector<std::string_view> keywords(const Shape& shape, std::initializer_list<std::string_view> more = {});
+template <class Row, class AnyField>
+std::vector<std::string_view> keywords(const Listed<Row, AnyField>& listed,
+                                       std::initializer_list<std::string_view> more = {}) {
+  std::vector<std::string_view> words(more);
+  for (const AnyField& field : listed.fields()) words.push_back(field.keyword);
+  return words;
+}
 
 }  // namespace trace::rayfile

@@ -45,7 +45,7 @@ constexpr std::pair<std::string_view, std::string_view> kInstead[]{
 };
 
 /// Words of other languages by which a file says that more of the scene stands elsewhere, or is to be
-/// computed. Nobody knows how much of the picture is lost without them, so they are errors.
+/// computed. It is not known how much of the picture is lost without them, so they are errors.
 constexpr std::array<std::string_view, 7> kBringsFiles{"include", "import", "load",  "require",
                                                        "source",  "use",    "insert"};
 constexpr std::array<std::string_view, 12> kComputes{"for",    "foreach", "while", "repeat",
@@ -227,7 +227,7 @@ void RepeatedFields::note(const Item& field) {
 }
 
 /// Words of 2001 and shininess tell only where nothing says that the file is newer, and no highlight has an
-/// exponent above 1. Exponents from 0 to 1 would make highlights so wide that nobody wants them.
+/// exponent above 1. Exponents from 0 to 1 would make highlights uselessly wide.
 void Findings::finishDialect() {
   if (isOfKind() || later_ || largeShininess_) return;
   const std::optional<Place>& sign = of2001_ ? of2001_ : smallShininess_;

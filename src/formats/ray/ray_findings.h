@@ -1,5 +1,5 @@
-// What reading one .ray file finds beside the scene: errors, warnings told once per kind with their number,
-// nodes that are kept but not rendered, and signs of the dialect it was written in.
+// Findings of reading one .ray file, besides the scene: errors, warnings told once per kind with their
+// number, nodes that are kept but not rendered, and signs of the dialect it was written in.
 #pragma once
 
 #include <map>
@@ -34,9 +34,9 @@ class Findings {
 
   std::size_t errors() const { return errors_; }
 
-  /// What the file says of what its kind would give it (formats/kind_defaults.h).
+  /// The parts that the file gives of its kind's defaults (formats/kind_defaults.h).
   KindGiven& given() { return given_; }
-  /// The file is of the kind `Trace 1`: words that nobody knows are errors.
+  /// The file is of the kind `Trace 1`: unknown words are errors.
   bool isOfKind() const { return syntax_.isOfKind(); }
 
   /// Warnings of one kind, which is their text unless given, become one with the place of the first.
@@ -45,7 +45,7 @@ class Findings {
   void warnOfNumber(const Item& at, std::string what, std::size_t count);
 
   /// Reports an error if the word of other languages asks for another file, or for something to be computed:
-  /// what is lost without it nobody knows. False for any other word.
+  /// it is not known what is lost without it. False for any other word.
   bool refuse(std::string_view word, const Item& at);
   /// Keeps the text of a node as Unrendered, and warns; an error for what is refused. `known` are the words
   /// it may be a misspelling of.

@@ -218,7 +218,7 @@ std::vector<Texture> readNamedTextures(const std::string& file, std::string_view
   rayfile::settle(syntax, moment, scene.inputs);
   rayfile::Reader reader(syntax, scene, messages, moment, nullptr);
   reader.read();
-  Scene shown;  // of one material for each texture
+  Scene shown;  // objects of one material for each texture
   shown.file = file;
   for (const auto& [name, texture] : reader.textures().named())
     shown.materials.push_back({.name = name, .model = {}, .textures = {{"diffuse", texture}}});

@@ -181,7 +181,7 @@ class Expander : Evaluator {
 
   // --- calls ---
 
-  /// What a call of a name makes. `block` overrides what it is made of; 0 for none.
+  /// The nodes that a call of a name makes. `block` overrides what it is made of; 0 for none.
   void made(std::uint32_t call, const Found& found, const Scoped& scope, std::uint32_t block) {
     const Binding& binding = *found.binding;
     const std::uint32_t brackets = call + 2;
@@ -203,7 +203,7 @@ class Expander : Evaluator {
     for (std::uint32_t child = block + 1; child < after(block); child = after(child)) {
       if (kind(child) != Kind::entry || wordAt(child + 1) != Material::kKeyword)
         fail(child, "expected material = ..., found " + describe(at(child)),
-             "a block behind a name says what its objects are made of");
+             "a block after a name gives the material of its objects");
       copy(child, scope);
     }
   }

@@ -1,10 +1,10 @@
 // The language of scenes (docs/language.md): named values, functions, loops, conditions, objects with
-// parameters and included files. Everything of it is worked out before anything is made of the scene:
+// parameters and included files. Everything of it is computed before anything is made of the scene:
 // expand() turns the tree that the parser made into the plain one that the reader knows, as settleKeys() does
 // with keys.
 //
 // Names are lexical: a block sees its own names and those around it, and all names of a block are known
-// throughout it. A value is worked out when it is first used. Nothing is assigned twice, so the order of
+// throughout it. A value is computed when it is first used. Nothing is assigned twice, so the order of
 // definitions does not matter.
 #pragma once
 
@@ -29,7 +29,7 @@ inline constexpr int kMostCalls = 200;
 /// uses nothing of the language.
 void expand(Syntax& syntax, SceneTime& time, InputFiles& inputs);
 
-/// What the reader makes a scene of: the tree at `time`, expanded, with values in the place of keys.
+/// The tree of which the reader makes a scene: that at `time`, expanded, with values in the place of keys.
 void settle(Syntax& syntax, SceneTime& time, InputFiles& inputs);
 
 /// A row of the table of functions.

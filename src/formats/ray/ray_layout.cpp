@@ -88,7 +88,7 @@ void breakBlocks(std::vector<Token>& tokens) {
     bool several = false;
     for (std::size_t k = from + 1; k <= i; ++k) several |= tokens[k].lines > 0;
     if (!several) continue;
-    const bool comment = tokens[from + 1].isComment() && tokens[from + 1].lines == 0;  // of the block itself
+    const bool comment = tokens[from + 1].isComment() && tokens[from + 1].lines == 0;  // its own comment
     Token& first = tokens[from + (comment ? 2 : 1)];
     first.lines = std::max(first.lines, 1);
     tokens[i].lines = std::max(tokens[i].lines, 1);
@@ -122,7 +122,7 @@ class Layout {
     for (std::size_t i = 0; i < tokens_.size(); ++i) add(i);
     std::string text;
     for (std::size_t first = 0; first < lines_.size();) {
-      std::size_t end = first + 1;  // of the lines in a row that have comments behind them
+      std::size_t end = first + 1;  // end of the lines in a row that have comments behind them
       if (isCommented(lines_[first]))
         while (end < lines_.size() && isCommented(lines_[end]) && !lines_[end].emptyBefore) ++end;
       std::size_t least = kNone, most = 0;

@@ -17,12 +17,12 @@
 namespace trace::rayfile {
 namespace {
 
-/// What students called a point light with a size, and that size.
+/// Students' names of a point light with a size, and that size.
 constexpr std::string_view kAreaLight = "area_light";
 constexpr std::string_view kWatts = "power";
 constexpr std::array<std::string_view, 3> kRadius{"bottom_radius", "light_radius", "area"};
 
-/// What students called the fields of spot lights (docs/lights.md).
+/// Students' names of the fields of spot lights (docs/lights.md).
 class StudentSpot {
  public:
   /// Reads the field if it is one of these.
@@ -52,7 +52,7 @@ class StudentSpot {
     return true;
   }
 
-  /// What follows for the part that does not fade, if the light says nothing of it.
+  /// The default of the part that does not fade.
   void settle(SpotLight& light) const {
     // Blender's: the part of the cone that fades, measured along the axis.
     const Real edge = std::cos(light.angle * kPi / 180), soft = std::clamp(blend_, 0.0, 1.0);
@@ -86,7 +86,7 @@ bool isRequired(std::string_view field, bool isOfKind) {
   return field == "position" || field == "direction" || (field == "color" && !isOfKind);
 }
 
-/// The watts of a lamp that shines to all sides with a colour of 1: a matt white surface at the distance 1
+/// The watts of a light that shines to all sides with a colour of 1: a matt white surface at the distance 1
 /// shows intensity / pi, and the intensity is power / (4 pi).
 constexpr Real kPowerOfOne = 4 * kPi * kPi;
 
@@ -137,7 +137,7 @@ bool checkView(Findings& findings, const Item& call, const L& light) {
   return true;
 }
 
-/// What is up cannot be told where it lies along the direction.
+/// The up direction is undefined where it lies along the direction.
 template <class L>
 void checkUp(Findings& findings, const Item& call, const L& light, bool given) {
   if constexpr (requires { light.up; })

@@ -12,6 +12,7 @@
 #include "formats/ray/ray_fields.h"
 #include "formats/ray/ray_format.h"
 #include "shading/library.h"
+#include "shading/textures/image_map.h"
 
 namespace trace::rayfile {
 namespace {
@@ -21,22 +22,21 @@ std::size_t mixed(std::size_t hash, std::size_t more) {
 }
 
 std::size_t hashOf(const Material& material) {
-  std::size_t hash = mixed(std::hash<std::string>{}(material.name), material.model.index());
+  std::size_t hash = mixed(std::hash<std::string>{}(material.name), material.model.type().index);
   for (const FieldTexture& t : material.textures)
     hash = mixed(hash, std::hash<std::string>{}(t.field + summary(t.texture)));
   const auto add = [&](double number) { hash = mixed(hash, std::hash<double>{}(number)); };
-  match(material.model, [&]<class Model>(const Model& model) {
-    forEachField<Model>([&](const auto& f) {
-      const auto& value = model.*f.member;
-      if constexpr (requires { value.r; }) {
-        add(value.r);
-        add(value.g);
-        add(value.b);
-      } else if constexpr (requires { value.size(); })
-        add(static_cast<double>(value.size()));
-      else
-        add(static_cast<double>(value));
-    });
+  forEachField(material.model, [&](const ModelField&, const auto& value) {
+    if constexpr (requires { value.r; }) {
+      add(value.r);
+      add(value.g);
+      add(value.b);
+    } else if constexpr (requires { value.size(); })
+      add(static_cast<double>(value.size()));
+    else if constexpr (requires { value.index(); })
+      add(static_cast<double>(value.index()));
+    else
+      add(static_cast<double>(value));
   });
   return hash;
 }
@@ -115,7 +115,7 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
     if (item.keyed() && !mirrorsSpecular(item)) repeats.note(item);
     field(block, item);
   }
-  const Phong* phong = std::get_if<Phong>(&block.material.model);
+  const Phong* phong = block.material.model.as<Phong>();
   if (phong) warnOfInheritedGlass(value, inherited);
   if (phong && block.shininess && !isBlack(phong->specular))
     findings_.noteShininess(*block.shininess, phong->shininess);
@@ -152,13 +152,13 @@ std::optional<Item> Materials::modelOf(const Item& block) {
 
 /// The fields that the block starts from and the other model has stay; the rest are the model's defaults.
 void Materials::chooseModel(Block& block, const Item& value) {
-  const std::vector<std::string_view> known = modelKeywords();
   std::string word;
   if (value.is(Kind::word)) word = value.text();
-  if (const auto model = modelCalled(word)) {
-    block.material = withModel(std::move(block.material), *model);
+  if (const ModelType* model = findModelType(word)) {
+    block.material = withModel(std::move(block.material), MaterialModel(*model));
     return;
   }
+  const std::vector<std::string_view> known = modelKeywords();
   std::string hint = didYouMean(word, known);
   findings_.expected(value, kModel, "the name of a shading model",
                      hint.empty() ? "there are " + list(known, "and") : std::move(hint));
@@ -173,7 +173,7 @@ void Materials::field(Block& block, const Item& field) {
     return;
   }
   if (key == kLibrary) return fromLibrary(block, field.value());
-  Phong* phong = std::get_if<Phong>(&block.material.model);
+  Phong* phong = block.material.model.edit<Phong>();
   if (phong && mirrorsSpecular(field)) {
     block.gaveReflective = false;
     phong->mirrorsSpecular = true;
@@ -184,15 +184,13 @@ void Materials::field(Block& block, const Item& field) {
     return findings_.expected(field.value(), "bump",
                               "a texture of heights, as in bump = texture(noise { }, 0.1), or 0");
   if (!pattern(block, field)) {
-    const bool known = match(block.material.model, [&](auto& model) {
-      return textures_.assign(model, block.material.textures, field, Material::kKeyword);
-    });
-    if (!known && !textures_.assign(block.material, block.material.textures, field, Material::kKeyword) &&
+    if (!textures_.assign(block.material.model, block.material.textures, field, Material::kKeyword) &&
+        !textures_.assign(block.material, block.material.textures, field, Material::kKeyword) &&
         !studentBump(block, field))
       return unknownField(block, field);
-    match(block.material.model, [&](const auto& model) {
-      if constexpr (requires { model.index; })
-        if (key == "index" && model.index == 0)
+    forEachField(block.material.model, [&]<class Value>(const ModelField& f, const Value& value) {
+      if constexpr (std::is_same_v<Value, Real>)
+        if (key == "index" && f.keyword == key && value == 0)
           findings_.warn(field, "index of material: nothing has an index of 0",
                          "air has 1, water 1.33, glass 1.5");
     });
@@ -207,7 +205,7 @@ void Materials::field(Block& block, const Item& field) {
   if (key == "specular" && !block.gaveReflective) phong->mirrorsSpecular = true;
 }
 
-/// Of what has no upper limit, and yet nothing is so large.
+/// A value without an upper limit that is nevertheless too large.
 void Materials::warnOfHuge(const Material& material, const Item& field) {
   constexpr Real kBrightest = 1e12, kHighest = 1e9;
   if (field.key() == "bump" && std::abs(material.bump) > kHighest)
@@ -225,35 +223,30 @@ void Materials::warnOfHuge(const Material& material, const Item& field) {
 /// Files of the courses have fields that no program knows any more; who names a model means it.
 void Materials::unknownField(const Block& block, const Item& field) {
   const std::string_view key = field.key();
-  match(block.material.model, [&]<class Model>(const Model&) {
-    if (!std::is_same_v<Model, Phong>)
-      return findings_.error(
-          field,
-          "the shading model " + std::string(Model::kKeyword) + " has no field \"" + std::string(key) + "\"",
-          [&] {
-            const auto fields =
-                keywords<Model>({"name", "bump", kOpacity, "displacement", "displacement_levels"});
-            const std::string meant = didYouMean(key, fields);
-            return meant.empty() ? "it has " + list(fields, "and") : meant;
-          }());
-    std::vector<std::string_view> having;
-    forEachType<MaterialModel>([&]<class Other>(Other*) {
-      forEachField<Other>([&](const auto& f) {
-        if (f.keyword == key) having.push_back(Other::kKeyword);
-      });
-    });
-    if (having.empty())
-      return findings_.unknownField(Material::kKeyword, field,
-                                    keywords<Model>({"name", "bump", kOpacity, "displacement",
-                                                     "displacement_levels", kModel, kLibrary}));
-    const std::string of = "it is one of model = " + list(having, "or");
-    if (findings_.isOfKind())
-      return findings_.error(
-          field, "a Phong material has no field \"" + std::string(key) + "\": " + of,
-          key == kColor ? "diffuse = (red, green, blue) is its colour" : "say which model, before the field");
-    findings_.warn(field, "unknown field \"" + std::string(key) + "\" of material is ignored: " + of,
-                   "say which model, before the field");
-  });
+  const MaterialModel& model = block.material.model;
+  if (!model.is<Phong>()) {
+    const auto fields = keywords(model, {"name", "bump", kOpacity, "displacement", "displacement_levels"});
+    const std::string meant = didYouMean(key, fields);
+    return findings_.error(
+        field,
+        "the shading model " + std::string(model.keyword()) + " has no field \"" + std::string(key) + "\"",
+        meant.empty() ? "it has " + list(fields, "and") : meant);
+  }
+  std::vector<std::string_view> having;
+  for (const ModelType& type : modelTypes())
+    for (const ModelField& f : MaterialModel(type).fields())
+      if (f.keyword == key) having.push_back(type.keyword);
+  if (having.empty())
+    return findings_.unknownField(
+        Material::kKeyword, field,
+        keywords(model, {"name", "bump", kOpacity, "displacement", "displacement_levels", kModel, kLibrary}));
+  const std::string of = "it is one of model = " + list(having, "or");
+  if (findings_.isOfKind())
+    return findings_.error(
+        field, "a Phong material has no field \"" + std::string(key) + "\": " + of,
+        key == kColor ? "diffuse = (red, green, blue) is its colour" : "say which model, before the field");
+  findings_.warn(field, "unknown field \"" + std::string(key) + "\" of material is ignored: " + of,
+                 "say which model, before the field");
 }
 
 /// Starts the block as a copy of a material of the library; its name stays.
@@ -278,13 +271,10 @@ bool Materials::pattern(Block& block, const Item& field) {
   const Item value = field.value();
   if (!value.is(Kind::call) || textures_.isTexture(value) || !isRelative(value.key())) return false;
   bool known = false;
-  match(block.material.model, [&]<class Model>(Model& model) {
-    forEachField<Model>([&](const auto& f) {
-      if (f.keyword != field.key()) return;
-      known = true;
-      auto& constant = model.*f.member;
-      if constexpr (requires { constant.r; }) constant = Color(1);
-    });
+  editEachField(block.material.model, [&]<class Value>(const ModelField& f, Value& constant) {
+    if (f.keyword != field.key()) return;
+    known = true;
+    if constexpr (std::is_same_v<Value, Color>) constant = Color(1);
   });
   if (known) findings_.notRendered(value.key(), value, {});
   return known;
@@ -300,7 +290,7 @@ bool Materials::studentBump(Block& block, const Item& field) {
     std::string file(value.is(Kind::word) ? value.text() : (*value.value().begin()).text());
     Texture picture = mappedPicture(std::move(file), findings_.syntax().shortPlace(value.offset()));
     TextureNode normals = *picture;
-    std::get<ImageMap>(normals.model).relief = Relief::normals;
+    normals.model.edit<ImageMap>()->relief = Relief::normals;
     setTexture(block.material.textures, "bump", std::move(normals));
     block.material.bump = 1;
     return true;

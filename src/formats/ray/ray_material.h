@@ -29,7 +29,7 @@ class Materials {
 
   TextureReader& textures() { return textures_; }
 
-  /// What primitives without a material get, and material blocks start from.
+  /// The material that primitives without one get, and material blocks start from.
   NotedMaterial current;
 
   /// The material that a block `{ ... }` describes, starting as a copy of `inherited`, or that a name

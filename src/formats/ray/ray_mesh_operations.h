@@ -1,4 +1,4 @@
-// What a mesh of a .ray file asks to be done to it, inline or from a file: `crease = 40; subdivide = 2; uv =
+// Operations that a mesh of a .ray file asks for, inline or from a file: `crease = 40; subdivide = 2; uv =
 // cubic;`.
 #pragma once
 

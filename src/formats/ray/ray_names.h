@@ -18,7 +18,7 @@ inline bool isHeld(char c) { return c == '\t' || (c != '"' && static_cast<unsign
 /// Can a .ray file hold the text between quotation marks as it is?
 bool isSayable(std::string_view text);
 
-/// Of what a .ray file cannot hold.
+/// Characters that a .ray file cannot hold.
 struct Unsayable {
   std::string text;
   bool isFile = false;

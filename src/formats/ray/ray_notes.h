@@ -1,4 +1,4 @@
-// What the reader of a .ray file notes for who wants to change its text (ray_patch.h): which text made which
+// Notes of the reader of a .ray file for changing its text (ray_patch.h): which text made which
 // part of the scene. Nodes are known by their offsets in the text.
 #pragma once
 
@@ -30,7 +30,7 @@ struct Notes {
   struct Block {
     std::uint32_t inherits;  ///< the block that it starts as a copy of
     Material inherited, material;
-    std::uint32_t index = NotedMaterial::kNoBlock;  ///< of Scene::materials, if something has it
+    std::uint32_t index = NotedMaterial::kNoBlock;  ///< index of Scene::materials, if something has it
   };
   /// A place where a material is said, by its block or by its name.
   struct Use {
@@ -50,7 +50,7 @@ struct Notes {
   };
   /// By the offset of a solid of solids.
   std::map<std::size_t, std::vector<OperandText>> operands;
-  /// What is in force at the end of the file.
+  /// The material in force at the end of the file.
   NotedMaterial last;
 };
 

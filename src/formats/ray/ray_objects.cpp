@@ -138,7 +138,7 @@ void ObjectReader::mesh(const Item& call, const Item& block, const Affine& world
 }
 
 void ObjectReader::analyticShape(Shape shape, const Item& call, const Item& block, Affine worldFromObject) {
-  // Of a kind in which y is up, the ground is level.
+  // In a kind in which y is up, the ground is level.
   if (findings_.isOfKind() && shape.is<Plane>())
     worldFromObject = worldFromObject * Affine{{{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, {}};
   std::string name;

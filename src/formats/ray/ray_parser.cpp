@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/names.h"
 #include "base/nesting.h"
 #include "base/text.h"
 #include "image/srgb.h"
@@ -16,6 +17,21 @@ namespace {
 bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+/// Letters of other alphabets; no punctuation, which may look like a quotation mark or a space.
+bool isOtherLetter(std::uint32_t code) {
+  const auto within = [&](std::uint32_t first, std::uint32_t last) { return code >= first && code <= last; };
+  return code >= 0xC0 && code != 0xD7 && code != 0xF7 && code < 0x1F000 && !within(0x2000, 0x2BFF) &&
+         !within(0x3000, 0x303F) && !within(0xE000, 0xF8FF) && !within(0xFE00, 0xFE6F) && code != 0xFEFF &&
+         !within(0xFF00, 0xFF20);
+}
+/// Bytes of the letter that `text` begins with; 0 if it begins with none.
+std::size_t letterBytes(std::string_view text) {
+  if (text.empty()) return 0;
+  if (static_cast<unsigned char>(text[0]) < 0x80) return isLetter(text[0]);
+  const auto [bytes, code] = utf8Letter(text);
+  return bytes > 0 && isOtherLetter(code) ? bytes : 0;
+}
 bool isWordPart(char c) { return isLetter(c) || isDigit(c) || c == '-'; }
 bool startsNumber(char c) { return isDigit(c) || c == '-' || c == '+' || c == '.'; }
 
@@ -44,11 +60,28 @@ std::size_t skipBlanks(std::string_view source, std::size_t at, bool& unclosed) 
   }
 }
 
+/// The character that the text begins with, or its byte if that is none.
+std::string shownFirst(std::string_view text);
 std::string shown(char c) {
   if (c >= ' ' && c <= '~') return quoted({&c, 1});
   char text[16];
   std::snprintf(text, sizeof text, "byte 0x%02x", static_cast<unsigned char>(c));
   return text;
+}
+
+std::string shownFirst(std::string_view text) {
+  const auto [bytes, code] = utf8Letter(text);
+  return bytes > 1 && code >= 0xA0 ? quoted(text.substr(0, bytes)) : shown(text.empty() ? '\0' : text[0]);
+}
+
+/// How what stands there is written in Trace, where people write it otherwise; "" elsewhere.
+std::string_view hintFor(std::string_view text) {
+  for (const std::string_view quote : {"\u201c", "\u201d", "\u201e", "\u2018", "\u2019"})
+    if (text.starts_with(quote)) return "text stands in straight quotation marks: \"text\"";
+  if (text.starts_with("\u00a0")) return "the blank there is a no-break space; a plain one is wanted";
+  if (text.starts_with("=")) return "== compares two values; name = value is a field";
+  if (text.starts_with("<")) return "a point or a colour is (x, y, z), and a field name = value";
+  return {};
 }
 
 constexpr std::string_view kBinary = "+-*/%^<>";
@@ -183,7 +216,7 @@ class Parser {
       return false;
     const std::size_t end = at_;
     blanks();
-    const bool named = isLetter(peek());
+    const bool named = letterHere() > 0;
     if (text == "let" && named) return statement(word, Kind::let, &Parser::let);
     if (text == "define" && named) return statement(word, Kind::define, &Parser::define);
     if (text == "for" && named) return statement(word, Kind::loop, &Parser::loop);
@@ -266,7 +299,7 @@ class Parser {
     value("an angle, as in rotate y 30 deg { }");
     beforeBody_ = false;
     blanks();
-    if (atEnd() || peek() == ')' || peek() == '}') failFound("expected what is rotated");
+    if (atEnd() || peek() == ')' || peek() == '}') failFound("expected the object to rotate");
     item();
     close(arguments);
     close(word);
@@ -275,7 +308,7 @@ class Parser {
 
   void name() {
     blanks();
-    if (!isLetter(peek())) failFound("expected a name");
+    if (!letterHere()) failFound("expected a name");
     word();
   }
   void need(char c) {
@@ -336,10 +369,9 @@ class Parser {
       failAtEnd(expected, {});
     } else {
       const std::string_view text = textAt(at_);
-      fail(at_, std::string("expected ") + expected + ", found " + shown(peek()),
-           looksLikeFile(text) ? quotesHint(text)
-           : peek() == '<'     ? "a point or a colour is (x, y, z), and a field name = value"
-                               : std::string());
+      const std::string_view rest = source_.substr(at_);
+      fail(at_, std::string("expected ") + expected + ", found " + shownFirst(rest),
+           looksLikeFile(text) ? quotesHint(text) : std::string(hintFor(rest)));
     }
   }
 
@@ -520,7 +552,8 @@ class Parser {
 
   // --- tokens ---
 
-  bool startsWord() const { return isLetter(peek()) || peek() == '"'; }
+  std::size_t letterHere() const { return letterBytes(source_.substr(at_)); }
+  bool startsWord() const { return letterHere() > 0 || peek() == '"'; }
 
   std::uint32_t word() {
     const std::size_t start = at_;
@@ -533,7 +566,8 @@ class Parser {
                         std::string(end == source_.size() ? "the end of the file" : "the end of the line"));
       at_ = end + 1;
     } else {
-      while (!atEnd() && isWordPart(peek())) ++at_;
+      for (std::size_t part = letterHere(); part > 0; part = isWordPart(peek()) ? 1 : letterHere())
+        at_ += part;
     }
     if (at_ - start > Syntax::kLongestWord)
       fail(start, "expected at most " + std::to_string(Syntax::kLongestWord) +
@@ -589,7 +623,7 @@ class Parser {
 
   // --- errors ---
 
-  /// What stands at `start`, up to a blank or a mark of the grammar.
+  /// The text at `start`, up to a blank or a mark of the grammar.
   std::string_view textAt(std::size_t start) const {
     const std::string_view rest = source_.substr(start);
     return rest.substr(0, rest.find_first_of(" \t\r\n;,(){}=\""));
@@ -637,10 +671,11 @@ class Parser {
     return "the " + shown(source_[opened]) + " at line " + std::to_string(syntax_.place(base_ + opened).line);
   }
 
-  /// What was expected is not what stands here.
+  /// Reports that something else was expected here.
   [[noreturn]] void failFound(const std::string& expected) const {
     if (atEnd()) failAtEnd(expected.starts_with("expected ") ? expected.substr(9) : expected, {});
-    fail(at_, expected + ", found " + shown(peek()));
+    const std::string_view rest = source_.substr(at_);
+    fail(at_, expected + ", found " + shownFirst(rest), std::string(hintFor(rest)));
   }
 
   const Syntax& syntax_;

@@ -13,7 +13,7 @@ namespace trace::rayfile {
 /// The text in quotation marks, for messages.
 std::string quoted(std::string_view text);
 
-/// What the text has that somebody has to look after.
+/// Features of the text that need another look.
 struct Parsed {
   bool hasKeys = false, usesLanguage = false;
   /// Numbers with two points, as in "0.3.0": what stands before the second counts.

@@ -10,7 +10,7 @@
 
 namespace trace::rayfile {
 
-/// What the statements say, and kind defaults therefore do not.
+/// The settings that the statements give, so that kind defaults leave them.
 struct PartGiven {
   KindGiven kind;
   bool camera = false, background = false;

@@ -127,7 +127,7 @@ bool takeOver(const Scene& read, const Scene& now, Wanted& wanted) {
   return true;
 }
 
-/// What the materials of a text become, told by the objects that have them.
+/// The materials of a text after the edits, found by the objects that have them.
 class MaterialMap {
  public:
   MaterialMap(const Scene& from, const Scene& to) : from_(from), to_(to), map_(from.materials.size()) {
@@ -250,7 +250,7 @@ class Patch {
   void noteRewritten(const Reading& now, const std::set<std::size_t>& rewrite) {
     for (std::size_t i : rewrite)
       lost_.warn(now.scene.objects[i].place,
-                 "this object is written anew: comments and nesting within it are lost");
+                 "this object is rewritten: comments and nesting within it are lost");
   }
 
   const SceneText& read_;
@@ -326,7 +326,7 @@ Rewritten rewriteRay(const SceneText& read, const Scene& edited, const std::stri
   }
   messages.warn(
       Place{.file = file},
-      "the text could not be kept: the scene is written anew, without its comments and nesting" +
+      "the text could not be kept: the scene is rewritten, without its comments and nesting" +
           std::string(changesWithTime(read.file, *read.bytes) ? " and as it is at this moment" : ""),
       "undo, or edit the file itself");
   return {writeRay(edited, file, {}, messages), false};

@@ -15,7 +15,7 @@
 
 namespace trace {
 
-/// What `look_at` of the camera says at that moment. Precondition: the text can be read.
+/// The value of the camera's `look_at` at that time. Precondition: the text can be read.
 std::optional<Vec3> lookAtIn(const std::string& file, std::string_view bytes, Real time);
 
 /// The text of the file `from`, in which the files that it names are called as they are seen from the folder

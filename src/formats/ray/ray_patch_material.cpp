@@ -35,7 +35,7 @@ struct Mirror {
   }
 };
 
-/// What a block starts as: what it inherits, or what it names of the library.
+/// The start of a block: the material that it inherits, or names of the library.
 Material startOf(const Item& block, const Material& inherited) {
   const std::optional<Item> named = fieldOf(block, kLibrary);
   const std::optional<Material> found =
@@ -55,7 +55,7 @@ bool namesSpecular(const Item& value) { return value.is(Kind::word) && value.tex
 MaterialEdits::MaterialEdits(TextEdits& edits, const Notes& notes,
                              std::vector<std::optional<Material>> wanted)
     : edits_(edits), notes_(notes), wanted_(std::move(wanted)) {
-  const auto isOther = [](const Material& m) { return !std::holds_alternative<Phong>(m.model); };
+  const auto isOther = [](const Material& m) { return !m.model.is<Phong>(); };
   for (const Notes::Block& block : notes_.blocks) hasModels_ |= isOther(block.material);
   for (const std::optional<Material>& material : wanted_) hasModels_ |= material && isOther(*material);
 }
@@ -140,28 +140,28 @@ void MaterialEdits::use(const Notes::Use& use) {
   define(wanted);
 }
 
-/// What the block says if its text stays and what it inherits from is `from`. If that is of another model,
-/// and the block names none, the block keeps what it said.
+/// The material of the block if its text stays and what it inherits from is `from`. If that is of another
+/// model, and the block names none, the block keeps what it said.
 Material MaterialEdits::followed(const Item& block, const Material& from, const Material& was) const {
-  if (from.model.index() != was.model.index() && !fieldOf(block, kModel)) return was;
+  if (&from.model.type() != &was.model.type() && !fieldOf(block, kModel)) return was;
   Material result = was;
   result.model = converted(from.model, was.model);
   std::erase_if(result.textures, [&](const FieldTexture& t) { return !saysOwn(block, t.field); });
-  match(result.model, [&]<class Model>(Model& model) {
-    forEachField<Model>([&](const auto& f) {
-      const std::optional<Item> given = fieldOf(block, f.keyword);
-      if (given && !namesSpecular(given->value()))
-        model.*f.member = std::get<Model>(was.model).*f.member;
-      else if (const Texture* texture = textureOf(from.textures, f.keyword))
-        setTexture(result.textures, f.keyword, *texture);
-    });
-    if constexpr (requires { model.mirrorsSpecular; }) {
-      Mirror mirror{model.mirrorsSpecular};
-      for (const Item item : block)
-        if (item.keyed()) mirror.meet(canonical(item.key()), namesSpecular(item.value()));
-      model.mirrorsSpecular = mirror.specular;
-    }
-  });
+  std::vector<ModelField> fields = result.model.editFields();
+  const std::vector<ModelField> before = was.model.fields();
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const std::optional<Item> given = fieldOf(block, fields[i].keyword);
+    if (given && !namesSpecular(given->value()))
+      takeValue(fields[i], before[i]);
+    else if (const Texture* texture = textureOf(from.textures, fields[i].keyword))
+      setTexture(result.textures, fields[i].keyword, *texture);
+  }
+  if (Phong* phong = result.model.edit<Phong>()) {
+    Mirror mirror{phong->mirrorsSpecular};
+    for (const Item item : block)
+      if (item.keyed()) mirror.meet(canonical(item.key()), namesSpecular(item.value()));
+    phong->mirrorsSpecular = mirror.specular;
+  }
   forEachField<Material>([&](const auto& f) {
     if (saysOwn(block, f.keyword)) return;
     result.*f.member = from.*f.member;
@@ -182,22 +182,23 @@ void MaterialEdits::changeValue(const Item& item, const Material& was, const Val
 
 void MaterialEdits::changeBlock(const Item& block, const Material& from, const Material& was,
                                 const Material& wanted) {
-  if (was.model.index() != wanted.model.index()) return edits_.replace(block, blockText(from, wanted, false));
+  if (&was.model.type() != &wanted.model.type()) return edits_.replace(block, blockText(from, wanted, false));
   if (const std::optional<Item> name = fieldOf(block, "name"); name && was.name != wanted.name) {
     if (wanted.name.empty())
       edits_.erase(*name);
     else
       edits_.change(name->value(), written(wanted.name, 0));
   }
-  match(wanted.model, [&]<class Model>(const Model& model) {
-    forEachField<Model>([&](const auto& f) {
-      const std::optional<Item> given = fieldOf(block, f.keyword);
-      const auto& value = model.*f.member;
-      const bool same = value == std::get<Model>(was.model).*f.member && sameTexture(was, wanted, f.keyword);
-      if (given && !same)
-        changeValue(given->value(), was, std::get<Model>(was.model).*f.member, wanted, value, f.keyword);
+  const std::vector<ModelField> before = was.model.fields(), after = wanted.model.fields();
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const std::string_view keyword = after[i].keyword;
+    const std::optional<Item> given = fieldOf(block, keyword);
+    if (!given || (sameValue(before[i], after[i]) && sameTexture(was, wanted, keyword))) continue;
+    visitValueOf(after[i], [&]<class Value>(const Value& value) {
+      const Value& old = valueOf<Value>(before[i]);
+      changeValue(given->value(), was, old, wanted, value, keyword);
     });
-  });
+  }
   forEachField<Material>([&](const auto& f) {
     const auto& value = wanted.*f.member;
     const bool same = was.*f.member == value && sameTexture(was, wanted, f.keyword);
@@ -213,34 +214,30 @@ MaterialEdits::Fields MaterialEdits::missing(const Item* block, const Material& 
   Fields fields;
   const auto given = [&](std::string_view key) { return block && fieldOf(*block, key); };
   if (!wanted.name.empty() && !given("name")) fields.push_back("name = " + written(wanted.name, 0));
-  const bool otherModel = from.model.index() != wanted.model.index();
+  const bool otherModel = &from.model.type() != &wanted.model.type();
   if (!given(kModel) && (otherModel || (all && hasModels_)))
-    fields.push_back(std::string(kModel) + " = " + std::string(keywordOf(wanted.model)));
+    fields.push_back(std::string(kModel) + " = " + std::string(wanted.model.keyword()));
   const Material start = withModel(from, wanted.model);
-  match(wanted.model, [&]<class Model>(const Model& model) {
-    const Model& before = std::get<Model>(start.model);
-    Mirror mirror{false};
-    if constexpr (requires { model.mirrorsSpecular; }) {
-      mirror.specular = before.mirrorsSpecular;
-      const bool changed = !(before.reflective == model.reflective);
-      if (block)
-        for (const Item item : *block)
-          if (item.keyed()) mirror.meet(canonical(item.key()), namesSpecular(item.value()) && !changed);
-    }
-    const auto add = [&](std::string_view key, const std::string& value) {
-      fields.push_back(std::string(key) + " = " + value);
-      mirror.meet(key, value == "specular");
-    };
-    forEachField<Model>([&](const auto& f) {
-      if (given(f.keyword)) return;
-      const auto& value = model.*f.member;
-      if (all || !(value == before.*f.member) || !sameTexture(start, wanted, f.keyword))
-        add(f.keyword, valueText(wanted, f.keyword, value));
-    });
-    if constexpr (requires { model.mirrorsSpecular; })
-      if (mirror.specular != model.mirrorsSpecular)
-        add("reflective", mirror.specular ? valueText(wanted, "reflective", model.reflective) : "specular");
-  });
+  const auto *phong = wanted.model.as<Phong>(), *phongBefore = start.model.as<Phong>();
+  Mirror mirror{phong && phongBefore->mirrorsSpecular};
+  if (phong && block) {
+    const bool changed = !(phongBefore->reflective == phong->reflective);
+    for (const Item item : *block)
+      if (item.keyed()) mirror.meet(canonical(item.key()), namesSpecular(item.value()) && !changed);
+  }
+  const auto add = [&](std::string_view key, const std::string& value) {
+    fields.push_back(std::string(key) + " = " + value);
+    mirror.meet(key, value == "specular");
+  };
+  const std::vector<ModelField> before = start.model.fields(), after = wanted.model.fields();
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const std::string_view keyword = after[i].keyword;
+    if (given(keyword)) continue;
+    if (all || !sameValue(before[i], after[i]) || !sameTexture(start, wanted, keyword))
+      visitValueOf(after[i], [&](const auto& value) { add(keyword, valueText(wanted, keyword, value)); });
+  }
+  if (phong && mirror.specular != phong->mirrorsSpecular)
+    add("reflective", mirror.specular ? valueText(wanted, "reflective", phong->reflective) : "specular");
   forEachField<Material>([&](const auto& f) {
     const auto& value = wanted.*f.member;
     const bool same = from.*f.member == value && sameTexture(from, wanted, f.keyword);

@@ -21,10 +21,9 @@ std::optional<Item> callOf(const Item& value) {
 }
 
 /// Does the block say the model in its own words, all of which are known?
-template <class Model>
-bool isPlain(const Item& call) {
-  if (textureKeyword(call.key()) != Model::kKeyword || !call.value().is(Kind::block)) return false;
-  const std::vector<std::string_view> known = keywords<Model>({"name", "scale", "rotate", "translate"});
+bool isPlain(const Item& call, const TextureModel& model) {
+  if (textureKeyword(call.key()) != model.keyword() || !call.value().is(Kind::block)) return false;
+  const std::vector<std::string_view> known = keywords(model, {"name", "scale", "rotate", "translate"});
   for (const Item field : call.value())
     if (!field.keyed() || std::find(known.begin(), known.end(), canonical(field.key())) == known.end())
       return false;
@@ -45,21 +44,22 @@ void changeInput(TextEdits& edits, const Item& block, std::string_view keyword, 
   sayField(edits, block, keyword, is ? laidOut(textured(*is, to, 0), indentIn(edits, block)) : now);
 }
 
-template <class Model>
+/// Precondition: they are of one type.
 void changeBlock(TextEdits& edits, const Item& block, const TextureNode& was, const TextureNode& is) {
-  const Model &from = std::get<Model>(was.model), &to = std::get<Model>(is.model);
   if (was.name != is.name)
     sayField(edits, block, "name", is.name.empty() ? std::string() : written(is.name, 0));
-  forEachField<Model>([&](const auto& f) {
-    const auto &before = from.*f.member, &now = to.*f.member;
-    using Value = std::remove_cvref_t<decltype(now)>;
-    if constexpr (std::is_same_v<Value, Real> || std::is_same_v<Value, Color>) {
-      const Texture *a = textureOf(was.inputs, f.keyword), *b = textureOf(is.inputs, f.keyword);
-      const bool same = before == now && (a && b ? *a == *b : a == b);
-      if (!same && (a || b)) return changeInput(edits, block, f.keyword, a, before, b, now);
-    }
-    if (before != now) changeField(edits, block, f.keyword, now);
-  });
+  const std::vector<TextureField> from = was.model.fields(), to = is.model.fields();
+  for (std::size_t i = 0; i < to.size(); ++i)
+    visitValueOf(to[i], [&]<class Value>(const Value& now) {
+      const std::string_view keyword = to[i].keyword;
+      const Value& before = valueOf<Value>(from[i]);
+      if constexpr (kIsContinuous<Value>) {
+        const Texture *a = textureOf(was.inputs, keyword), *b = textureOf(is.inputs, keyword);
+        const bool same = before == now && (a && b ? *a == *b : a == b);
+        if (!same && (a || b)) return changeInput(edits, block, keyword, a, before, b, now);
+      }
+      if (!(before == now)) changeField(edits, block, keyword, now);
+    });
   changeFields(edits, block, was.placement, is.placement);
 }
 
@@ -79,13 +79,10 @@ void changeConstant(TextEdits& edits, const Item& value, const std::string& to) 
 bool changeTexture(TextEdits& edits, const Item& value, const Texture& was, const std::string& from,
                    const Texture& is, const std::string& to) {
   const std::optional<Item> call = callOf(value);
-  if (!call || was->model.index() != is->model.index()) return false;
-  return match(was->model, [&]<class Model>(const Model&) {
-    if (!isPlain<Model>(*call)) return false;
-    changeBlock<Model>(edits, call->value(), *was, *is);
-    if (from != to) changeConstant(edits, value, to);
-    return true;
-  });
+  if (!call || &was->model.type() != &is->model.type() || !isPlain(*call, was->model)) return false;
+  changeBlock(edits, call->value(), *was, *is);
+  if (from != to) changeConstant(edits, value, to);
+  return true;
 }
 
 }  // namespace trace::rayfile

@@ -33,7 +33,7 @@ bool looksAt(const Camera& camera, const Item& target) {
   return numbers(target, n, 3) && normalize(Vec3{n[0], n[1], n[2]} - camera.position) == camera.viewdir;
 }
 
-/// What `look_at` and `quaternian` say is said by viewdir and updir from now on.
+/// From now on viewdir and updir give the view instead of `look_at` and `quaternian`.
 void changeDirections(TextEdits& edits, const Item& block, const Camera& from, const Camera& to) {
   const std::optional<Item> target = fieldOf(block, "look_at"), turn = fieldOf(block, "quaternian");
   const bool targetStays = target && looksAt(to, target->value());
@@ -94,7 +94,7 @@ void changeBackground(TextEdits& edits, const Background& from, const Background
     return edits.addOnTop(text + " }");
   }
   const Item& block = blocks.back();
-  std::vector<Item> single;  // of one colour each
+  std::vector<Item> single;  // colours of bands of one colour each
   bool list = false;
   for (const Item item : block) {
     if (!item.keyed()) continue;
@@ -136,7 +136,7 @@ class SettingsChange {
   }
 
  private:
-  /// What lies below the scene's folder goes where that goes.
+  /// A file below the scene's folder goes where that goes.
   std::string seenFromScene(const std::string& file) const {
     const std::filesystem::path below =
         std::filesystem::path(file).lexically_relative(folder_.lexically_normal());
@@ -162,9 +162,9 @@ class SettingsChange {
   }
 
   TextEdits& edits_;
-  std::filesystem::path folder_;  // of the scene
+  std::filesystem::path folder_;  // folder of the scene
   std::vector<Item> blocks_;
-  std::vector<Choice> choices_;  ///< of the text so far
+  std::vector<Choice> choices_;  ///< choices in the text so far
   Settings to_;
   std::string lines_;
 };

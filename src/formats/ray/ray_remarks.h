@@ -1,4 +1,4 @@
-// What only the text of a .ray file tells, and a Scene does not keep: for lint.
+// Facts that only the text of a .ray file has, and a Scene does not keep: for lint.
 #pragma once
 
 #include <string>
@@ -11,13 +11,13 @@ namespace trace {
 
 struct RayRemarks {
   struct Angle {
-    Place place;  ///< of the number, with its line
+    Place place;  ///< place of the number, with its line
     double value = 0;
   };
   /// Angles of rotate() beyond a whole turn that are whole or half numbers, as degrees are and radians hardly
   /// ever; in the order of the file. Angles that change with time are left out.
   std::vector<Angle> degrees;
-  Place camera;  ///< of the last one, which counts; only the file if there is none
+  Place camera;  ///< position of the last camera, which counts; only the file if there is none
 };
 
 /// Throws Error(Fault::scene) where the syntax is wrong.

@@ -232,7 +232,7 @@ class Round {
     edits_.replace(item, operandText(is));
     materials_.drop(item.offset(), endOf(item));
     messages_.warn(syntax_.shortPlace(text.offset),
-                   "this part of a solid is written anew: comments and nesting within it are lost");
+                   "this part of a solid is rewritten: comments and nesting within it are lost");
   }
 
   std::string operandText(const Operand& operand) const {

@@ -26,14 +26,14 @@ struct Reading {
   Scene scene;
 };
 
-/// What the text is to say.
+/// The scene that the text is to give.
 struct Wanted {
   static constexpr std::size_t kNew = std::numeric_limits<std::size_t>::max();
 
   Scene scene;  ///< objects and lights in the order in which the text will have them
   /// Which object and light of the present text each one is; kNew if none.
   std::vector<std::size_t> objects, lights;
-  /// What each material of the present text becomes.
+  /// The new material of each material of the present text.
   std::vector<std::optional<Material>> materials;
 };
 

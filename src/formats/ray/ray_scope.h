@@ -23,15 +23,15 @@ namespace trace::rayfile {
 struct Binding {
   std::string_view name;
   std::uint32_t node = 0;  ///< the let, define or loop
-  /// Of a parameter or loop; of a let without parameters, once it was asked for.
+  /// The value of a parameter or loop; of a let without parameters, once it was asked for.
   std::optional<Value> value{};
-  bool isActive = false;  ///< its value is being worked out, and does not see itself
+  bool isActive = false;  ///< its value is being computed, and does not see itself
 };
 
 /// The names of one block, of one call or of one round of a loop.
 struct Scope {
   std::shared_ptr<const Scope> parent{};
-  std::uint64_t seed = 0;       ///< of its random numbers
+  std::uint64_t seed = 0;       ///< seed of its random numbers
   std::uint32_t block = 0;      ///< whose random numbers are counted together
   std::string_view hides = {};  ///< the name whose value is being made: it does not see itself
   mutable std::vector<Binding> bindings{};
@@ -68,7 +68,7 @@ class Names {
 
   // --- names ---
 
-  /// All names of a block, before anything of it is worked out.
+  /// All names of a block, before anything of it is computed.
   void declare(std::uint32_t block, Scope& scope);
   /// Words of statements and constants are no names. Words that begin an object, such as `rows`, name values
   /// only: behind them, brackets make the object.
@@ -81,7 +81,7 @@ class Names {
   };
   /// The innermost binding of the name that is seen from there.
   Found find(std::string_view name, const Scoped& from) const;
-  /// The same for a name with brackets behind it.
+  /// The definition of a name with brackets behind it.
   Found findCalled(std::string_view name, const Scoped& from) const {
     return objects_.contains(name) ? Found{} : find(name, from);
   }
@@ -92,7 +92,7 @@ class Names {
   bool isDefinition(const Binding& binding) const {
     return !binding.value && kind(binding.node) == Kind::define;
   }
-  /// What a name that nobody knows may have meant.
+  /// A suggestion for an unknown name.
   std::string nameHint(std::string_view text, Scoped scope) const;
   /// "i-1" is one word, since options have dashes in their names.
   void refuseDash(std::uint32_t index, const Scoped& scope) const;
@@ -147,7 +147,7 @@ class Names {
   std::vector<Node> result_;  // the tree that is being made
   std::vector<Syntax::Frame> frames_;
   std::vector<std::size_t> active_;               // frames that are being made
-  std::map<std::uint32_t, std::uint32_t> roots_;  // of included files, by their statements
+  std::map<std::uint32_t, std::uint32_t> roots_;  // roots of included files, by their statements
   int calls_ = 0;
 
  private:

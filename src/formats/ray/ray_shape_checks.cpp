@@ -50,7 +50,7 @@ void checkBox(const Tell& tell, const Vec3& low, const Vec3& high) {
   std::string axes;
   for (int axis = 0; axis < 3; ++axis)
     if (low[axis] > high[axis]) axes += (axes.empty() ? "" : ", ") + std::string(1, "xyz"[axis]);
-  if (!axes.empty()) tell("low is above high in " + axes + "; they change places there", {});
+  if (!axes.empty()) tell("low is above high in " + axes + "; they are swapped there", {});
 }
 
 /// Is the formula a number anywhere between the corners?

@@ -1,4 +1,4 @@
-// What a shape of a .ray file shows to be a mistake, though it can be traced: nothing of it can be seen, its
+// Mistakes in a shape of a .ray file that can be traced: nothing of it can be seen, its
 // corners are the wrong way round, a list is too short for its curve.
 #pragma once
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "formats/ray/ray_fields.h"
+#include "shading/textures/marble.h"
 
 namespace trace::rayfile {
 namespace {

@@ -178,7 +178,7 @@ class Translator {
   Write copyOf(Index index) {
     return [this, index] { copy(index); };
   }
-  /// Copies of the items of a block but for the fields of those names.
+  /// Copies of the items of a block except for the fields of those names.
   Write rest(Index block, std::function<bool(std::string_view)> isLeftOut) {
     return [this, block, isLeftOut = std::move(isLeftOut)] {
       for (const Index child : children(block))
@@ -346,7 +346,7 @@ class Translator {
       if (sameWord(name, theirs)) return ours;
     return {};
   }
-  /// What a name or number in an expression stands for.
+  /// The value of a name or number in an expression.
   std::optional<Index> operandOf(Index block, Index operand) const {
     if (kind(operand) == Kind::word) return field(block, at(operand).text());
     return {};
@@ -409,7 +409,7 @@ class Translator {
                p = number(block, "p", 0.4), q = number(block, "q", 3.5);
     constexpr int kStations = 24;  // to a turn of the tubes around the ring or around each other
     if (!(std::abs(q) <= 100) || !(tube > 0)) return false;
-    const bool one = std::abs(std::remainder(q, 1)) == 0.5;  // the second goes on where the first ends
+    const bool one = std::abs(std::remainder(q, 1)) == 0.5;  // the second continues where the first ends
     const int rounds = one ? 2 : 1;
     const int stations = rounds * kStations * static_cast<int>(std::ceil(std::max(1.0, std::abs(q))));
     std::string tubes;
@@ -560,7 +560,7 @@ class Translator {
     return glows ? *glows : vector(material, "diffuse").value_or(Vec3{1, 1, 1});
   }
 
-  // --- lights and what is around ---
+  // --- lights and the environment ---
 
   bool areaLight(Index call) {
     const Index block = value(call);

@@ -19,7 +19,7 @@ std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\
 Syntax::Syntax(std::string file, std::string_view source) {
   sources_.emplace_back().file = std::move(file);
   sources_.back().text = source;
-  nodes_.reserve(source.size() / 6);  // of a mesh: numbers of five characters and a separator, and brackets
+  nodes_.reserve(source.size() / 6);  // a mesh has numbers of five characters and a separator, and brackets
   parse(sources_.back());
 }
 

@@ -68,12 +68,12 @@ enum class Op : std::uint8_t {
 
 struct Node {
   double number = 0;
-  std::uint32_t offset = 0;  ///< of its first byte in the source
-  std::uint32_t length = 0;  ///< of its source text in bytes
+  std::uint32_t offset = 0;  ///< offset of its first byte in the source
+  std::uint32_t length = 0;  ///< length of its source text in bytes
   std::uint32_t end = 0;     ///< index of the first node after its subtree
   Kind kind = Kind::number;
-  bool quoted = false;   ///< of a word
-  bool follows = false;  ///< of a block: nothing stands between it and the call before
+  bool quoted = false;   ///< a quoted word
+  bool follows = false;  ///< a block with nothing between it and the call before
   /// A word that no text of the file says is number - 1 of Syntax::spelled; 0 for others.
 };
 
@@ -100,9 +100,9 @@ class Syntax {
   /// The outermost item that begins there.
   std::optional<Item> itemAt(std::size_t offset) const;
   std::span<const Node> nodes() const { return nodes_; }
-  /// Of the file itself, without what it includes.
+  /// The syntax of the file itself, without what it includes.
   std::string_view source() const { return sources_.front().text; }
-  /// What the node has in its file.
+  /// The position of the node in its file.
   std::string_view textOf(const Node& node) const {
     return sourceOf(node.offset).text.substr(node.offset - sourceOf(node.offset).base, node.length);
   }
@@ -112,7 +112,7 @@ class Syntax {
   bool usesLanguage() const { return usesLanguage_; }
   /// Does the file begin with `Trace 1`? Then its angles are in degrees.
   bool isOfKind() const;
-  /// What somebody has to be told of the text itself, or of what was made of it.
+  /// Remarks on the text itself, or on what was made of it.
   struct Remark {
     std::uint32_t offset;
     std::string what, hint;
@@ -133,8 +133,8 @@ class Syntax {
 
   /// Nodes that one call of a definition or one round of a loop made.
   struct Frame {
-    std::uint32_t first, end;  ///< of the nodes
-    std::uint32_t offset;      ///< of the call or loop
+    std::uint32_t first, end;  ///< range of the nodes
+    std::uint32_t offset;      ///< offset of the call or loop
     std::string what;          ///< "gear(teeth = 12)", "i = 3"
   };
   /// Sorted by `first`; they nest.
@@ -189,7 +189,7 @@ class Item {
  public:
   Item(const Syntax& syntax, std::uint32_t index) : syntax_(&syntax), index_(index) {}
 
-  std::uint32_t index() const { return index_; }  ///< of its node
+  std::uint32_t index() const { return index_; }  ///< index of its node
   Kind kind() const { return node().kind; }
   bool is(Kind kind) const { return node().kind == kind; }
   double number() const { return node().number; }
@@ -239,7 +239,7 @@ class Item {
 /// The text after white space, comments and a byte order mark.
 std::string_view skipBlanks(std::string_view source);
 
-/// What a message says was found: the item's own text if it is short, else a sketch of it.
+/// The text that a message says was found: the item's own text if it is short, else a sketch of it.
 std::string describe(const Item& item);
 
 }  // namespace trace::rayfile

@@ -7,23 +7,17 @@
 #include "base/text.h"
 #include "formats/ray/ray_student_textures.h"
 #include "shading/texture_flaws.h"
+#include "shading/textures/image_map.h"
+#include "shading/textures/marble.h"
 
 namespace trace::rayfile {
 namespace {
 
 constexpr std::string_view kMap = "map", kName = "name";
 
-/// Calls visit(model) with a texture of that keyword; false if there is none.
-template <class Visit>
-bool withModel(std::string_view keyword, Visit&& visit) {
-  bool found = false;
-  forEachType<TextureModel>([&](auto* type) {
-    using Model = std::remove_pointer_t<decltype(type)>;
-    if (Model::kKeyword != keyword) return;
-    found = true;
-    visit(Model{});
-  });
-  return found;
+/// The type that a call names; null if it is none.
+const TextureType* typeOf(const Item& call) {
+  return call.is(Kind::call) ? findTextureType(textureKeyword(call.key())) : nullptr;
 }
 
 /// `map("file")`, without a constant: inside `texture( )` it stands for the picture.
@@ -39,8 +33,7 @@ bool isPictureFile(const Item& value) { return value.is(Kind::word) && value.sou
 
 std::vector<std::string_view> textureKinds() {
   std::vector<std::string_view> kinds;
-  forEachType<TextureModel>(
-      [&](auto* type) { kinds.push_back(std::remove_pointer_t<decltype(type)>::kKeyword); });
+  for (const TextureType& type : textureTypes()) kinds.push_back(type.keyword);
   return kinds;
 }
 
@@ -55,8 +48,7 @@ Texture mappedPicture(std::string file, Place place) {
 bool TextureReader::isTexture(const Item& value) const {
   if (isPictureFile(value)) return true;
   if (!value.is(Kind::call)) return false;
-  return value.key() == kMap || value.key() == kTexture ||
-         withModel(textureKeyword(value.key()), [](const auto&) {});
+  return value.key() == kMap || value.key() == kTexture || typeOf(value);
 }
 
 std::optional<TextureReader::Scaled> TextureReader::read(const Item& value) {
@@ -98,18 +90,16 @@ std::optional<Texture> TextureReader::named(const Item& word) {
 }
 
 std::optional<Texture> TextureReader::block(const Item& call) {
-  TextureNode node;
-  const bool known = call.is(Kind::call) && withModel(textureKeyword(call.key()),
-                                                      [&](auto model) { node.model = std::move(model); });
-  if (!known) {
+  const TextureType* type = typeOf(call);
+  if (!type) {
     findings_.expected(call, kTexture, "a texture, as in checker { }",
                        call.is(Kind::call) ? didYouMean(call.key(), textureKinds()) : std::string());
     return {};
   }
   const std::optional<Item> fields = blockOf(findings_, call);
   if (!fields) return {};
-  if (!std::holds_alternative<Marble>(node.model) || !readStudentMarble(findings_, *fields, node))
-    readFields(*fields, node);
+  TextureNode node{.model = TextureModel(*type)};
+  if (!node.model.is<Marble>() || !readStudentMarble(findings_, *fields, node)) readFields(*fields, node);
   for (const std::string& flaw : flawsOf(node)) findings_.warn(call, flaw);
   constexpr double kMostTextures = 1000;
   Texture texture(std::move(node));
@@ -117,7 +107,7 @@ std::optional<Texture> TextureReader::block(const Item& call) {
     findings_.error(call,
                     "expected at most " + toText(kMostTextures) + " textures in one another, found " +
                         toText(texture.size()),
-                    "each place of a surface asks all of them; one that stands in two fields counts twice");
+                    "each point of a surface evaluates all of them; one in two fields counts twice");
     return {};
   }
   if (!texture->name.empty()) named_.insert_or_assign(texture->name, texture);
@@ -125,19 +115,17 @@ std::optional<Texture> TextureReader::block(const Item& call) {
 }
 
 void TextureReader::readFields(const Item& block, TextureNode& node) {
-  match(node.model, [&](auto& model) {
-    using Model = std::remove_cvref_t<decltype(model)>;
-    RepeatedFields repeats(findings_, Model::kKeyword);
-    for (const Item field : block) {
-      if (!isField(findings_, field, Model::kKeyword)) continue;
-      repeats.note(field);
-      if (field.key() == kName)
-        rayfile::read(findings_, kName, field.value(), node.name);
-      else if (!assign(model, node.inputs, field) && !assignField(findings_, node.placement, field))
-        findings_.unknownField(Model::kKeyword, field,
-                               keywords<Model>({"name", "scale", "rotate", "translate"}));
-    }
-  });
+  const std::string_view keyword = node.model.keyword();
+  RepeatedFields repeats(findings_, keyword);
+  for (const Item field : block) {
+    if (!isField(findings_, field, keyword)) continue;
+    repeats.note(field);
+    if (field.key() == kName)
+      rayfile::read(findings_, kName, field.value(), node.name);
+    else if (!assign(node.model, node.inputs, field, keyword) &&
+             !assignField(findings_, node.placement, field))
+      findings_.unknownField(keyword, field, keywords(node.model, {"name", "scale", "rotate", "translate"}));
+  }
 }
 
 void TextureReader::define(const Item& value) {
@@ -149,38 +137,32 @@ void TextureReader::define(const Item& value) {
 
 namespace {
 
-template <class Struct>
-void addFields(std::string& text, const Struct& from, const std::vector<FieldTexture>& textures, int digits,
-               WrittenTextures* names) {
-  const Struct otherwise{};
-  forEachField<Struct>([&](const auto& f) {
-    const auto& value = from.*f.member;
-    using Value = std::remove_cvref_t<decltype(value)>;
-    const Texture* texture = textureOf(textures, f.keyword);
-    if (!texture && value == otherwise.*f.member) return;
-    text += std::string(f.keyword) + " = ";
-    if constexpr (std::is_same_v<Value, Color> || std::is_same_v<Value, Real>)
-      text += texture ? textured(*texture, value, digits, names) : written(value, digits);
-    else
-      text += written(value, digits);
-    text += "; ";
-  });
-}
-
 std::string blockText(const Texture& texture, int digits, WrittenTextures* names) {
   const TextureNode& node = *texture;
-  return match(node.model, [&](const auto& model) {
-    std::string text = std::string(model.kKeyword) + " { ";
-    if (!node.name.empty()) text += "name = " + written(node.name, digits) + "; ";
-    addFields(text, model, node.inputs, digits, names);
-    addFields(text, node.placement, {}, digits, nullptr);
-    return text + "}";
+  std::string text = std::string(node.model.keyword()) + " { ";
+  const auto add = [&](std::string_view keyword, const std::string& value) {
+    text += std::string(keyword) + " = " + value + "; ";
+  };
+  if (!node.name.empty()) add("name", written(node.name, digits));
+  const TextureModel usual(node.model.type());
+  const std::vector<TextureField> all = node.model.fields(), unsaid = usual.fields();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    visitValueOf(all[i], [&](const auto& value) {
+      if (const Texture* input = textureOf(node.inputs, all[i].keyword))
+        add(all[i].keyword, textured(*input, value, digits, names));
+      else if (!sameValue(all[i], unsaid[i]))
+        add(all[i].keyword, written(value, digits));
+    });
+  forEachField<TexturePlacement>([&](const auto& f) {
+    const auto& value = node.placement.*f.member;
+    if (value != TexturePlacement{}.*f.member) add(f.keyword, written(value, digits));
   });
+  return text + "}";
 }
 
 /// The file, if `map("file")` stands for the texture.
 const std::string* mappedFile(const Texture& texture) {
-  const auto* map = std::get_if<ImageMap>(&texture->model);
+  const auto* map = texture->model.as<ImageMap>();
   return map && texture == mappedPicture(map->file.file) ? &map->file.file : nullptr;
 }
 

@@ -38,8 +38,7 @@ class TextureReader {
   /// Reads `field` into the member of that keyword, or the texture that stands there into `textures`. False
   /// if Struct has no such field.
   template <class Struct>
-  bool assign(Struct& target, std::vector<FieldTexture>& textures, const Item& field,
-              std::string_view owner = Struct::kKeyword);
+  bool assign(Struct& target, std::vector<FieldTexture>& textures, const Item& field, std::string_view owner);
 
   bool isTexture(const Item& value) const;
 
@@ -73,11 +72,9 @@ bool TextureReader::assign(Struct& target, std::vector<FieldTexture>& textures, 
     return true;
   }
   bool known = false;
-  forEachField<Struct>([&](const auto& f) {
+  editEachField(target, [&]<class Value>(const auto& f, Value& value) {
     if (f.keyword != key) return;
     known = true;
-    auto& value = target.*f.member;
-    using Value = std::remove_cvref_t<decltype(value)>;
     if constexpr (std::is_same_v<Value, Color> || std::is_same_v<Value, Real>) {
       const std::optional<Scaled> scaled = read(field.value());
       if (!scaled) return;
@@ -102,7 +99,9 @@ std::string textured(const Texture& texture, const std::string& constant, bool p
 template <class Value>
 std::string textured(const Texture& texture, const Value& constant, int digits,
                      WrittenTextures* names = nullptr) {
-  return textured(texture, written(constant, digits), constant == Value(1), digits, names);
+  bool plain = false;
+  if constexpr (kIsContinuous<Value>) plain = constant == Value(1);
+  return textured(texture, written(constant, digits), plain, digits, names);
 }
 
 }  // namespace trace::rayfile

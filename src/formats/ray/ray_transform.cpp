@@ -18,9 +18,9 @@ using Step = TransformStep;
 using Steps = std::vector<TransformStep>;
 using Form = TransformStep::Kind;
 
-/// What a product of a few matrices may be off by, in parts of its size.
+/// The largest error of a product of a few matrices, relative to its size.
 constexpr Real kRounding = 1e-13;
-/// What tells one form of a matrix from another, in parts of its size.
+/// The difference that tells one form of a matrix from another, relative to its size.
 constexpr Real kAlike = 1e-11;
 
 Real largest(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
@@ -169,7 +169,7 @@ class Fitting {
     return steps;
   }
 
-  /// What the step would have to be if all others stay; its offset does not count.
+  /// The step that is needed if all others stay; its offset does not count.
   std::optional<Affine> wanted(std::size_t i) const {
     const Affine left = before(i), right = after(i);
     if (!invertible(left) || !invertible(right)) return {};

@@ -32,7 +32,7 @@ std::string head(const TransformStep& step, int digits);
 /// None for the identity.
 std::vector<TransformStep> stepsOf(const Affine& m);
 
-/// Equal but for the rounding of a few operations.
+/// Equal except for the rounding of a few operations.
 bool nearlyEqual(const Affine& a, const Affine& b);
 
 /// `own` with as few numbers as possible changed, so that outer * product(result) nearly equals `target`, and

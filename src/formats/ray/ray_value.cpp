@@ -28,7 +28,7 @@ double ofNumbers(Op op, double a, double b) {
     case Op::divide:
       if (b == 0) refuse("division by 0");
       return finite(a / b);
-    case Op::modulo:  // of the sign of b, so that angles and indices wrap
+    case Op::modulo:  // has the sign of b, so that angles and indices wrap
       if (b == 0) refuse("division by 0");
       return finite(a - b * std::floor(a / b));
     default: return finite(std::pow(a, b));

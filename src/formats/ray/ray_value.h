@@ -37,10 +37,10 @@ struct Value : std::variant<double, bool, std::string, List, Tree> {
   const Tree* tree() const { return std::get_if<Tree>(this); }
 };
 
-/// What a value is, for messages: "3", "(1, 2, 3)", "text", "an object".
+/// A value in words, for messages: "3", "(1, 2, 3)", "text", "an object".
 std::string shown(const Value& value);
 
-/// What is wrong with the values of an operation, without a place.
+/// An error in the values of an operation, without a place.
 class ValueError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

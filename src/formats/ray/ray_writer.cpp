@@ -38,8 +38,7 @@ namespace fs = std::filesystem;
 class Writer {
  public:
   Writer(const Scene& scene, int digits) : scene_(scene), digits_(digits) {
-    for (const Material& material : scene.materials)
-      hasModels_ |= !std::holds_alternative<Phong>(material.model);
+    for (const Material& material : scene.materials) hasModels_ |= !material.model.is<Phong>();
     for (const Object& object : scene.objects) count(object.shape, object.material);
     nameMaterials();
   }
@@ -195,10 +194,13 @@ class Writer {
     const std::size_t start = out_.size();
     out_ += "{ ";
     if (!name.empty()) item("name", written(name, digits_));
-    if (!std::holds_alternative<Phong>(material.model) || (inWhole_ && hasModels_))
-      item(kModel, std::string(keywordOf(material.model)));
-    match(material.model, [&](const auto& model) { modelFields(material, model); });
-    modelFields(material, material, [&](std::string_view field) { return ownFields_.contains(field); });
+    if (!material.model.is<Phong>() || (inWhole_ && hasModels_))
+      item(kModel, std::string(material.model.keyword()));
+    modelFields(material);
+    forEachField(material, [&](const auto& f, const auto& value) {
+      if (ownFields_.contains(f.keyword))
+        materialField(material, f.keyword, value, value != Material{}.*f.member);
+    });
     out_ += "}";
     out_.replace(start, out_.npos, laidOut(std::string_view(out_).substr(start), "    "));
   }
@@ -217,38 +219,38 @@ class Writer {
     out_ += std::string(keyword) + " = " + value + "; ";
   }
 
-  /// Writes the fields that differ from the defaults, and all fields of an operand, which would inherit from
-  /// the whole.
-  template <class Model>
-  void modelFields(const Material& material, const Model& model) {
-    modelFields(material, model, [](std::string_view) { return true; });
+  void modelFields(const Material& material) {
+    const MaterialModel usual(material.model.type());
+    const std::vector<ModelField> all = material.model.fields(), unsaid = usual.fields();
+    const Phong* phong = material.model.as<Phong>();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::string_view keyword = all[i].keyword;
+      const bool differs = !sameValue(all[i], unsaid[i]);
+      visitValueOf(all[i], [&](const auto& value) {
+        materialField(material, keyword, value,
+                      differs || (phong && isSaidAnyway(material, *phong, keyword)));
+      });
+      if (phong && phong->mirrorsSpecular && keyword == "reflective" &&
+          (inWhole_ || differs || textureOf(material.textures, keyword)))
+        item(keyword, "specular");
+    }
   }
-  /// The same of fields that isWanted(keyword).
-  template <class Model, class IsWanted>
-  void modelFields(const Material& material, const Model& model, const IsWanted& isWanted) {
-    forEachField<Model>([&](const auto& f) {
-      if (!isWanted(f.keyword)) return;
-      const auto& value = model.*f.member;
-      const Texture* texture = textureOf(material.textures, f.keyword);
-      const bool differs = inWhole_ || texture || value != Model{}.*f.member;
-      if (texture)
-        item(f.keyword, textured(*texture, value, digits_, &writtenTextures_));
-      else if (differs || isSaidAnyway(material, model, f.keyword))
-        item(f.keyword, written(value, digits_));
-      if constexpr (requires { model.mirrorsSpecular; })
-        if (f.keyword == "reflective" && model.mirrorsSpecular && differs) item(f.keyword, "specular");
-    });
+
+  /// Writes the field if it has a texture or is to be said, and each of an operand, which would inherit it
+  /// from the whole.
+  template <class Value>
+  void materialField(const Material& material, std::string_view keyword, const Value& value, bool said) {
+    if (const Texture* texture = textureOf(material.textures, keyword))
+      item(keyword, textured(*texture, value, digits_, &writtenTextures_));
+    else if (inWhole_ || said)
+      item(keyword, written(value, digits_));
   }
 
   /// `specular` without `reflective` after it says that the surface mirrors with it.
-  template <class Model>
-  static bool isSaidAnyway(const Material& material, const Model& model, std::string_view keyword) {
-    if constexpr (requires { model.mirrorsSpecular; }) {
-      if (keyword == "specular") return model.mirrorsSpecular;
-      const bool saidSpecular = !isBlack(model.specular) || textureOf(material.textures, "specular");
-      if (keyword == "reflective") return !model.mirrorsSpecular && saidSpecular;
-    }
-    return false;
+  static bool isSaidAnyway(const Material& material, const Phong& phong, std::string_view keyword) {
+    if (keyword == "specular") return phong.mirrorsSpecular;
+    const bool saidSpecular = !isBlack(phong.specular) || textureOf(material.textures, "specular");
+    return keyword == "reflective" && !phong.mirrorsSpecular && saidSpecular;
   }
 
   // --- objects ---
@@ -360,7 +362,7 @@ class Writer {
   std::map<const MeshData*, std::size_t> uses_,
       shared_;  ///< how many objects have a mesh; its number in the file
   std::map<std::uint32_t, std::size_t> materialUses_;
-  std::map<std::uint32_t, std::string> newNames_;  ///< of materials that have none
+  std::map<std::uint32_t, std::string> newNames_;  ///< new names of materials that have none
   WrittenTextures writtenTextures_;
   /// Fields whatever the model that some material says, which others may have to take back.
   std::set<std::string_view> ownFields_ = ownFieldsOf(scene_.materials);

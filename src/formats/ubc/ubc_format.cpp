@@ -142,7 +142,7 @@ class UbcReader {
                             "Rotate: expected an axis of length 1, found one of length " +
                                 toText(length(axis)) + ", which also scales and skews",
                             {}, "axis");
-    move(Affine::rotation(axis, degrees * kPi / 180));  // of an axis as long as it is
+    move(Affine::rotation(axis, degrees * kPi / 180));  // the axis is used at its length
   }
 
   // --- objects ---

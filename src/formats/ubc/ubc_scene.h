@@ -1,4 +1,4 @@
-// What both generations of the scenes of British Columbia have in common: the settings that follow from the
+// Parts common to both generations of the scenes of British Columbia: the settings that follow from the
 // course, and the materials and lights as Trace has them.
 #pragma once
 
@@ -24,7 +24,7 @@ struct Lamp {
   Vec3 position;
   Color ambient, diffuse, specular;
   Vec3 attenuation;  ///< constant, linear, quadratic; all 0: the light does not fade
-  Real radius = 0;   ///< of the ball that shines
+  Real radius = 0;   ///< radius of the luminous ball
 };
 void addLamp(Scene& scene, const Lamp& lamp, const Place& place);
 

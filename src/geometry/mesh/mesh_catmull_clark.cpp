@@ -62,9 +62,9 @@ void divide(MeshData& mesh, std::vector<Polygon>& polygons, std::vector<Crease>&
   const auto points = static_cast<Index>(mesh.points.size());
   const auto at = [&](Index i) { return Vec3(mesh.points[i]); };
   Unique<Edge> edges;
-  std::vector<Vec3> middles, beside;  // of each polygon; the sum of those beside each edge
+  std::vector<Vec3> middles, beside;  // middles of each polygon; the sum of those beside each edge
   std::vector<int> uses;
-  std::vector<Index> edgesOf;  // of each corner of each polygon
+  std::vector<Index> edgesOf;  // edges at each corner of each polygon
   for (const Polygon& polygon : polygons) {
     Vec3 sum;
     for (const Index corner : polygon) sum += at(corner);

@@ -1,4 +1,4 @@
-// What sharp edges make of a level of subdivision, Loop's or Catmull and Clark's (DeRose, Kass and Truong,
+// Sharp edges in a level of subdivision, Loop's or Catmull and Clark's (DeRose, Kass and Truong,
 // Subdivision Surfaces in Character Animation, 1998, appendix B): along them, as on borders, it is that of a
 // cubic B-spline. Sharpness between 0 and 1 mixes with the smooth surface. Part of mesh_smooth.h.
 #pragma once
@@ -34,7 +34,7 @@ struct PointCreases {
       along += other;
     }
   }
-  /// Where the point goes, from where it goes on a smooth surface: with two along their curve, with more it
+  /// Where the point goes, from where it continues a smooth surface: with two along their curve, with more it
   /// is a corner and stays; one alone ends there.
   Vec3 moved(const Vec3& point, const Vec3& smooth) const {
     if (count < 2) return smooth;
@@ -64,8 +64,8 @@ struct SharpEdges {
     }
   }
 
-  std::vector<Real> sharpness;  ///< of each edge, as they are numbered
-  std::vector<Crease> finer;    ///< of the mesh one level finer
+  std::vector<Real> sharpness;  ///< sharpness of each edge, as they are numbered
+  std::vector<Crease> finer;    ///< creases of the mesh one level finer
 };
 
 }  // namespace trace

@@ -91,7 +91,7 @@ void movePoints(MeshData& mesh, const std::vector<Index>& place, const Unique<Pl
     m.height += height(mesh, i);
     ++m.count;
   }
-  constexpr Real kCancelled = 1e-6;  // of unit normals
+  constexpr Real kCancelled = 1e-6;  // length at which unit normals cancel
   for (Index i = 0; i < mesh.points.size(); ++i) {
     const Moved& m = moved[place[i]];
     if (length(m.along) < kCancelled) continue;

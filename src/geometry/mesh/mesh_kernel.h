@@ -25,8 +25,8 @@ struct alignas(32) BlockHits {
   unsigned sure = 0;
 };
 
-/// What locate() and TriangleRay::passes() (triangle.h) say of four triangles at once. The arithmetic is that
-/// of locate(), operation by operation, so t and the weights are the same to the last bit.
+/// The results of locate() and TriangleRay::passes() (triangle.h) for four triangles at once. The arithmetic
+/// is that of locate(), operation by operation, so t and the weights are the same to the last bit.
 ///
 /// The signs of the weights tell whether the line of the ray passes through a triangle. With u = 2^-53,
 /// D = |d|_1 and R the sum of |v0 - o|_1 and two edges' sizes, rounding moves a weight by at most 10 R^2 D u,

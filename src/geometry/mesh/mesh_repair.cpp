@@ -92,7 +92,7 @@ void appendPolygon(MeshData& mesh, std::span<const std::uint32_t> corners) {
 std::size_t dropDegenerate(MeshData& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   std::uint32_t kept = 0;
-  std::vector<std::uint32_t> place;  // of each triangle, once those before it are gone
+  std::vector<std::uint32_t> place;  // new place of each triangle, once those before it are gone
   if (!mesh.polygons.empty()) place.reserve(count + 1);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!mesh.polygons.empty()) place.push_back(kept);

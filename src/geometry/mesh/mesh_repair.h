@@ -1,4 +1,4 @@
-// What readers of meshes do to make them ones that can be traced.
+// Repairs that make meshes traceable, for their readers.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace trace {
 /// Precondition: every corner < mesh.points.size().
 void appendPolygon(MeshData& mesh, std::span<const std::uint32_t> corners);
 
-/// What readers warn of, with a place and the number, when dropDegenerate() has removed some.
+/// The warning of readers, with a place and the number, when dropDegenerate() has removed some.
 inline constexpr std::string_view kWithoutArea = "triangles without area are left out";
 
 /// Removes triangles without area; returns how many.

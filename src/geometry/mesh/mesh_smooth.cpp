@@ -48,7 +48,7 @@ MeshData withCreaseNormals(const MeshData& mesh, Real angle) {
   // i.
   Sets sets(3 * static_cast<std::size_t>(count));
   Unique<Edge> edges;
-  std::vector<Edge> firstCorners;  // of each edge, at its a and at its b
+  std::vector<Edge> firstCorners;  // first corners of each edge, at its a and at its b
   const Real least = std::cos(angle);
   for (Index i = 0; i < count; ++i)
     for (Index c = 0; c < 3; ++c) {

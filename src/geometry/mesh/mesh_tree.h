@@ -40,7 +40,7 @@ struct MeshArrays {
   BvhExtent extent;
 };
 
-/// What is sought on a ray's way through a mesh.
+/// The query along a ray through a mesh.
 struct MeshQuery {
   const Ray& ray;
   const MeshArrays& mesh;

@@ -20,7 +20,7 @@ enum class UvProjection {
 std::optional<UvProjection> uvProjection(std::string_view name);
 
 /// The mesh with uv in place of its own. Where faces go across the line from u = 1 back to 0, or turn to
-/// another side, points are doubled, and u goes on above 1. Normals to be generated are, with length 1.
+/// another side, points are doubled, and u continues above 1. Normals to be generated are, with length 1.
 MeshData withProjectedUvs(const MeshData& mesh, UvProjection projection);
 
 }  // namespace trace

@@ -12,7 +12,7 @@ namespace {
 constexpr Real kMostParts = 0.15;  // added, of the number of triangles
 constexpr Real kUneven = 8;  // splits pay from this spread of sizes on (measured: scans 1 to 3, buildings 50)
 
-/// What a box leaves of a triangle: a convex polygon of at most nine corners.
+/// The part of a triangle inside a box: a convex polygon of at most nine corners.
 struct Piece {
   std::array<Vec3, 10> corners;
   std::size_t count = 0;
@@ -113,8 +113,8 @@ std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
     box.low.store(item.low);
     box.high.store(item.high);
     item.item = i;
-    // What a triangle, which fills its box at best by half, leaves empty is what cutting can spare. A float
-    // holds the side of a square as large for any size of mesh.
+    // The empty part of the box of a triangle, which fills it at best by half, is what cutting can spare. A
+    // float holds the side of a square as large for any size of mesh.
     const Real area = halfArea(box3(box));
     item.note =
         static_cast<float>(std::sqrt(max(0, area - 0.5 * (std::abs(n.x) + std::abs(n.y) + std::abs(n.z)))));

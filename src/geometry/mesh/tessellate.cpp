@@ -23,14 +23,14 @@ constexpr Real kInset = 1e-7;
 /// Looks at the budget that all lines of a grid may take, unless more is wanted: half a minute's work at
 /// most. One line through a usual shape takes one or two, one through a Mandelbulb of 10 iterations 50.
 constexpr double kMostLooks = 1 << 16;
-/// And a line, on average, where a surface is found at all. The search gives up at 150: then what it finds is
-/// noise.
+/// The steps of a line, on average, where a surface is found at all. The search gives up at 150: then what it
+/// finds is noise.
 constexpr double kMostOfALine = 120;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 struct Sample {
   Vec3 point, normal;
-  std::uint32_t next = kNone;  ///< of the same cell
+  std::uint32_t next = kNone;  ///< next in the same cell
 };
 
 class SampleGrid {
@@ -174,7 +174,7 @@ class SampleGrid {
       ++count;
     }
     middle = middle / count;
-    Affine normal;  // of the normal equations, for the way from the middle
+    Affine normal;  // matrix of the normal equations, for the way from the middle
     for (int i = 0; i < 3; ++i) normal.row[i] = normal.row[i] * (kPull * count);
     Vec3 right;
     for (std::uint32_t s = heads_[cell]; s != kNone; s = samples_[s].next) {

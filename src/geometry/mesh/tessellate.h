@@ -23,10 +23,10 @@ struct SurfaceCorner {
   std::uint32_t material = kOwn;  ///< that most of the place is made of: of Scene::materials, kOwn, or kClear
 };
 
-/// Where a shape without end is cut off, in its own space, unless something else is said.
+/// Where an infinite shape is cut off, in its own space, unless something else is said.
 inline constexpr Box3 kFarthest{{-100, -100, -100}, {100, 100, 100}};
 
-/// The shape's bounds; of one without end the part that lies in the box.
+/// The shape's bounds; of an infinite one the part that lies in the box.
 Box3 drawnBounds(const Shape& shape, const Box3& within = kFarthest);
 
 /// Three corners for each triangle. A mesh gives its own; other shapes are sampled on a grid of about

@@ -165,7 +165,7 @@ std::optional<Vec2> uvAt(const TracedShape& form, const Vec3& p, const Vec3& nor
 
 /// The mesh with the texture coordinates of the shape. Each corner is asked a little inside its triangle, so
 /// that those on a line where coordinates start again, or at a pole, have them as their triangle does. A
-/// triangle that lies across such a line goes on with them.
+/// triangle that lies across such a line continues with them.
 MeshData withTextureCoordinates(const MeshData& mesh, const TracedShape& form, Real size) {
   constexpr Real kInside = 0x1p-8, kReach = 0.02, kTorn = 0.25;
   struct Key {

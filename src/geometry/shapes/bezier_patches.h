@@ -70,7 +70,7 @@ class TracedPatches {
   std::int64_t partCount() const { return static_cast<std::int64_t>(patches_.size()) << (2 * kStepBits); }
 
  private:
-  static constexpr int kStepBits = 20;  ///< of a part: where on the patch, roughly, in u and in v
+  static constexpr int kStepBits = 20;  ///< step bits of a part: where on the patch, roughly, in u and in v
 
   std::vector<Patch> patches_;
   LineTree tree_;

@@ -108,7 +108,7 @@ Real nearestOf(CsgOperation operation, Real radius, Real near) {
 TracedBlend::TracedBlend(const Blend& shape) {
   bounds_ = add(shape.operation, std::abs(shape.radius), shape.objects.list(), {}, 0);
   if (bounds_.unbounded())
-    throw Error(Fault::scene, "a blend goes on for ever",
+    throw Error(Fault::scene, "a blend is infinite",
                 "a plane can be cut out of it, or cut it off by an intersection");
   constexpr std::size_t kMostForms = 1 << 16;
   if (forms_.size() > kMostForms) throw Error(Fault::scene, "a blend of more than 65536 solids is too large");
@@ -129,7 +129,7 @@ Box3 TracedBlend::add(DistanceForm form, std::uint32_t material, const Affine& w
 Box3 TracedBlend::add(CsgOperation operation, Real radius, const std::vector<Operand>& operands,
                       const Affine& wholeFromPart, Real near) {
   const Real fillet = radius * scaleOf(wholeFromPart);
-  std::vector<Real> nears(operands.size(), near);  // of each operand; they are taken in one by one
+  std::vector<Real> nears(operands.size(), near);  // distance for each operand; they are taken in one by one
   for (std::size_t i = operands.size(); i-- > 1;) nears[i] = near = nearestOf(operation, fillet, near);
   if (!nears.empty()) nears.front() = near;
   Box3 box;
@@ -325,7 +325,7 @@ SurfacePoint TracedBlend::surface(const Ray& ray, const Crossing& crossing) cons
   }
   const Real l = length(g);
   const Vec3 n = l > 0 && std::isfinite(l) ? g / l : normalize(-ray.direction);
-  // What intervals make of a single place bounds the rounding.
+  // The interval of a single point bounds the rounding.
   const Interval value = Line(*this, p, {}).at(Interval(0.0)).value;
   const Real off = min(l > 0 ? (value.high - value.low) / l : kInfinity, size * 1e-7);
   const Real error = 2 * off + size * gammaError(16);

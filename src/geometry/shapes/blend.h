@@ -33,12 +33,12 @@ struct Blend {
   static constexpr auto fields() {
     return Fields{
         Field{"objects", &Blend::objects, "", 0, 0, "solids; they stand in the block one after another"},
-        Field{"operation", &Blend::operation, "", 0, 0, "what is made of them"},
-        Field{"radius", &Blend::radius, "", 0, kNoLimit, "of the fillet"}};
+        Field{"operation", &Blend::operation, "", 0, 0, "how they are combined"},
+        Field{"radius", &Blend::radius, "", 0, kNoLimit, "radius of the fillet"}};
   }
   bool operator==(const Blend&) const = default;
 
-  /// Throws Error for an object whose distance is not known, and for a blend without end.
+  /// Throws Error for an object whose distance is not known, and for a blend infinite.
   std::shared_ptr<const TracedBlend> prepared() const;
 };
 
@@ -62,7 +62,7 @@ class TracedBlend {
   /// A step of the evaluation: a solid, or what the two values before become.
   struct Step {
     bool leaf = true;
-    std::size_t index = 0;  ///< of forms_
+    std::size_t index = 0;  ///< index of forms_
     CsgOperation operation = CsgOperation::unite;
     Real radius = 0;
   };
@@ -78,7 +78,7 @@ class TracedBlend {
   std::int64_t partAt(const Vec3& p) const;
 
   std::vector<DistanceForm> forms_;
-  std::vector<std::uint32_t> materials_;  ///< of each form
+  std::vector<std::uint32_t> materials_;  ///< materials of each form
   std::vector<Step> steps_;
   Box3 bounds_;
 };

@@ -89,7 +89,7 @@ struct Frustum {
       if (r > 0 && was > 0) n = normalize({p.x / r, p.y / r, -slope()});
     }
     if (!capped && dot(n, ray.direction) > 0) n = -n;
-    // On the ends v goes on from the rim to the middle, back to where it came from.
+    // On the ends v continues from the rim to the middle, back to where it came from.
     Real v = p.z / h;
     if (crossing.part == bottom) v = 1 - min(1, std::hypot(p.x, p.y) / r0);
     if (crossing.part == top) v = min(1, std::hypot(p.x, p.y) / r1);

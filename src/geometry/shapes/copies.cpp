@@ -34,7 +34,8 @@ std::shared_ptr<const TracedCopies> Ifs::prepared() const {
   std::vector<Affine> affine;
   for (const Map& m : maps) {
     Affine a;
-    Real longest = 0;  // of the linear part's columns: more than the largest stretch, squared, is their sum
+    Real longest = 0;  // longest of the linear part's columns: the sum of their squares bounds the largest
+                       // stretch, squared
     for (std::size_t i = 0; i < 3; ++i) {
       a.row[i] = {m[4 * i], m[4 * i + 1], m[4 * i + 2]};
       a.offset[static_cast<int>(i)] = m[4 * i + 3];

@@ -20,10 +20,10 @@ namespace trace {
 
 class TracedCopies;
 
-/// What stands at the last level.
+/// The seed: the shape at the last level.
 enum class Seed {
   cube,         ///< from -0.5 to 0.5 in x, y and z
-  ball,         ///< of radius 0.5
+  ball,         ///< ball of radius 0.5
   tetrahedron,  ///< on four corners of the cube
 };
 constexpr std::array<std::string_view, 3> names(Seed) { return {"cube", "ball", "tetrahedron"}; }
@@ -37,8 +37,8 @@ struct Sierpinski {
   int levels = 4;
 
   static constexpr auto fields() {
-    return Fields{Field{"levels", &Sierpinski::levels, "", 0, kMostLevels,
-                        "how often the middles are taken out; 0 is a tetrahedron"}};
+    return Fields{
+        Field{"levels", &Sierpinski::levels, "", 0, kMostLevels, "number of levels; 0 is a tetrahedron"}};
   }
   bool operator==(const Sierpinski&) const = default;
 
@@ -63,9 +63,8 @@ struct Ifs {
         Field{
             "maps", &Ifs::maps, "", -kNoLimit, kNoLimit,
             "list of (a, b, c, d, e, f, g, h, i, j, k, l): x' = a x + b y + c z + d, and so on; all shrink"},
-        Field{"seed", &Ifs::seed, "", 0, 0, "what stands at the last level"},
-        Field{"levels", &Ifs::levels, "", 0, 30,
-              "of copies of copies, as far as a million of millions allows"}};
+        Field{"seed", &Ifs::seed, "", 0, 0, "the shape at the last level"},
+        Field{"levels", &Ifs::levels, "", 0, 30, "number of levels, up to a million million copies"}};
   }
   bool operator==(const Ifs&) const = default;
 
@@ -85,12 +84,12 @@ class TracedCopies {
   std::int64_t partCount() const { return leaves_ * kFaces; }
 
  private:
-  static constexpr std::int64_t kFaces = 6;  ///< of a seed; a part is a face of a leaf
+  static constexpr std::int64_t kFaces = 6;  ///< faces of a seed; a part is a face of a leaf
   /// A stretch of the line inside a seed.
   struct Stretch {
     Crossing in, out;
   };
-  /// Of a ray that meets very many copies the stretches are joined before all are found: a union of millions
+  /// If a ray crosses very many copies, the stretches are joined before all are found: a union of millions
   /// of overlapping seeds takes no more memory, and no longer, than what is left of it.
   struct Merging {
     static constexpr std::size_t kFirst = 4096;
@@ -106,7 +105,7 @@ class TracedCopies {
   Seed seed_;
   int levels_;
   std::int64_t leaves_ = 1;
-  std::vector<Box3> boxes_;  ///< of the copies of each number of levels
+  std::vector<Box3> boxes_;  ///< boxes of the copies of each number of levels
   Box3 reach_, bounds_;      ///< reach_: holds every level; bounds_: the last
   Real error_ = 0;
 };

@@ -35,7 +35,7 @@ class Operands {
   std::shared_ptr<const std::vector<Operand>> list_;
 };
 
-/// What is made of solids.
+/// The operation on the solids.
 enum class CsgOperation { unite, intersect, subtract };
 constexpr std::array<std::string_view, 3> names(CsgOperation) {
   return {"union", "intersection", "difference"};
@@ -43,7 +43,7 @@ constexpr std::array<std::string_view, 3> names(CsgOperation) {
 
 struct Union {
   static constexpr std::string_view kKeyword = "union";
-  static constexpr std::string_view kHelp = "solids as one: what is inside any of them";
+  static constexpr std::string_view kHelp = "union: the points inside any of the solids";
   Operands objects;
   static constexpr auto fields() {
     return Fields{
@@ -56,7 +56,7 @@ struct Union {
 
 struct Intersection {
   static constexpr std::string_view kKeyword = "intersection";
-  static constexpr std::string_view kHelp = "what is inside all of the solids";
+  static constexpr std::string_view kHelp = "intersection: the points inside all of the solids";
   Operands objects;
   static constexpr auto fields() {
     return Fields{Field{"objects", &Intersection::objects, "", 0, 0,
@@ -69,10 +69,12 @@ struct Intersection {
 
 struct Difference {
   static constexpr std::string_view kKeyword = "difference";
-  static constexpr std::string_view kHelp = "what is inside the first solid but in none of the others";
+  static constexpr std::string_view kHelp =
+      "difference: the points inside the first solid but in none of the others";
   Operands objects;
   static constexpr auto fields() {
-    return Fields{Field{"objects", &Difference::objects, "", 0, 0, "the solid, then what is cut out of it"}};
+    return Fields{
+        Field{"objects", &Difference::objects, "", 0, 0, "the solid, then the solids cut out of it"}};
   }
   bool operator==(const Difference&) const = default;
   std::shared_ptr<const CsgTree> prepared(const MeshTrees& made = {}) const;

@@ -29,7 +29,7 @@ void checkPlace(const Operand& operand) {
     throw Error(Fault::scene, "an object of a solid is squeezed flat by its transform");
 }
 
-/// What follows for the whole from its operands, one after the other.
+/// The state of the whole by its operands, one after the other.
 class Whole {
  public:
   explicit Whole(CsgRule rule) : rule_(rule) {}

@@ -1,4 +1,4 @@
-// What rays meet of a union, intersection, difference or clipped object.
+// The traced form of a union, intersection, difference or clipped object.
 //
 // A ray's line meets every operand; the crossings, in order, turn the operands' insides on and off, and where
 // the inside of the whole changes there is one crossing of the whole. Operands that are solids of solids are

@@ -26,12 +26,11 @@ struct HeightField {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"file", &HeightField::file, "", 0, 0,
-              "a picture: the brighter, the higher; goes before formula"},
+        Field{"file", &HeightField::file, "", 0, 0, "a picture: brighter is higher; overrides formula"},
         Field{"formula", &HeightField::formula, "", 0, 0, "the height, of x and y"},
         Field{"points", &HeightField::points, "", 2, kMostPoints,
-              "along each side, where the formula is taken"},
-        Field{"height", &HeightField::height, "", -kNoLimit, kNoLimit, "what heights are multiplied by"},
+              "number of samples of the formula along each side"},
+        Field{"height", &HeightField::height, "", -kNoLimit, kNoLimit, "factor on the heights"},
         Field{"floor", &HeightField::floor, "", -kNoLimit, kNoLimit, "z of the flat bottom"},
         Field{"smooth", &HeightField::smooth, "", 0, 1, "bicubic patches; else bilinear ones"},
         Field{"capped", &HeightField::capped, "", 0, 1,

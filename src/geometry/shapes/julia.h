@@ -41,15 +41,15 @@ struct Julia {
   static constexpr auto fields() {
     return Fields{
         Field{"constant", &Julia::constant, "", -2, 2, "c: one number for each dimension"},
-        Field{"normal", &Julia::normal, "", -1, 1, "of the hyperplane, of any length"},
-        Field{"offset", &Julia::offset, "", -2, 2, "of the hyperplane from the origin, along its normal"},
-        Field{"iterations", &Julia::iterations, "", 1, 50,
-              "how often the step is repeated: more show more detail"},
+        Field{"normal", &Julia::normal, "", -1, 1, "normal of the hyperplane, of any length"},
+        Field{"offset", &Julia::offset, "", -2, 2,
+              "distance of the hyperplane from the origin, along its normal"},
+        Field{"iterations", &Julia::iterations, "", 1, 50, "number of iterations; more show more detail"},
         Field{"iteration", &Julia::iteration, "", 0, 0, "the step: f in q -> f(q) + c"},
         Field{"mandelbrot", &Julia::mandelbrot, "", 0, 1, "c is the point itself, plus `constant`"},
-        Field{"trap", &Julia::trap, "", 0, 0, "what the texture coordinates tell"},
+        Field{"trap", &Julia::trap, "", 0, 0, "the meaning of the texture coordinates"},
         Field{"materials", &Julia::materials, "", 0, 0,
-              "that follow each other as the trap's least distance grows"}};
+              "materials in the order of the trap's least distance"}};
   }
   bool operator==(const Julia&) const = default;
 
@@ -79,7 +79,7 @@ class TracedJulia {
  private:
   using Number = std::array<Real, 4>;
   static constexpr Real kReach = 2.5, kEscaped = 4;  ///< kEscaped: from here on powers only grow
-  static constexpr Real kPowerStep = 0x1p-28;  ///< of the search for powers, at least: in sizes of the set
+  static constexpr Real kPowerStep = 0x1p-28;  ///< least step of the search for powers, in sizes of the set
 
   Number lift(const Vec3& p) const;
   Number step(const Number& q) const;
@@ -87,7 +87,7 @@ class TracedJulia {
   Number stepSlope(const Number& q, const Number& change) const;
   /// Is the step a power? A point that has escaped from it never comes back.
   bool power() const { return shape_.iteration < Iteration::sine; }
-  /// What of a number is held against the limit, and how it changes with the number.
+  /// The part of a number that is compared with the limit, and how it changes with the number.
   Real escape(const Number& q) const;
   Real escapeSlope(const Number& q, const Number& change) const;
   /// How many times farther apart the step takes numbers within r of q, at most.
@@ -115,9 +115,9 @@ class TracedJulia {
   Jet powerValue(const Vec3& p, const Vec3& direction) const;
 
   Julia shape_;
-  std::array<Number, 3> axes_{};  ///< of the hyperplane
+  std::array<Number, 3> axes_{};  ///< axes of the hyperplane
   Number shift_{};
-  JuliaSet set_{};  ///< of the powers
+  JuliaSet set_{};  ///< set of the powers
   JuliaKernel::Look look_ = nullptr;
   Real reach_ = 0;  ///< the set lies within
 };

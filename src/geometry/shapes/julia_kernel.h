@@ -1,4 +1,4 @@
-// What is surely known of four stretches of a ray through a Julia set of powers, at once. Compiled once for
+// Proven facts about four stretches of a ray through a Julia set of powers, at once. Compiled once for
 // each instruction set (julia_kernel_*.cpp), all with the same arithmetic.
 //
 // The orbit of the middle of a stretch, its change along the ray and a bound of its second derivative over
@@ -31,7 +31,7 @@ FourStretches lookAt(const JuliaSet& set, const julia::Number<Real>& place, cons
   Double4 m = zero;                          // a bound of the second derivative of q
   Double4 error = all(0x1p-49 * (set.reach + set.mostConstant)), bent = zero;  // rounding of q, of d, at most
   const Double4 mostGrowth = all(set.mostGrowth);
-  Double4 growth = own;  // of distances between numbers of the stretch, at most
+  Double4 growth = own;  // largest growth of distances between numbers of the stretch
   FourStretches known;
   unsigned open = 15;  // those still followed
   for (int i = 0;; ++i) {
@@ -43,7 +43,7 @@ FourStretches lookAt(const JuliaSet& set, const julia::Number<Real>& place, cons
     if (((beyond | below) & open) != 0 || i == set.iterations) {
       const Double4 slope = max(product, zero - product) * all(2), speed = l + w * m;
       const Double4 pull = (s + w * (l + all(0.5) * (w * m))) * m;
-      const Double4 push = (speed * speed + pull) * all(2) * up;  // of the slope, at most
+      const Double4 push = (speed * speed + pull) * all(2) * up;  // largest push of the slope
       const Double4 change = w * (slope + all(0.5) * (w * push)) + all(2) * (s * error);
       const unsigned sure = less(change * up, max(out, in)) & open;
       known.keeps |= sure;
@@ -62,7 +62,7 @@ FourStretches lookAt(const JuliaSet& set, const julia::Number<Real>& place, cons
     if (i >= JuliaSet::kSurely) open &= ~less(mostGrowth, growth);
     if (open == 0) return known;
     const Double4 longer = julia::stretch<kIteration>(s);
-    const Double4 turn = kIteration == Iteration::cube ? all(6) * s : all(3);  // of the step's slope
+    const Double4 turn = kIteration == Iteration::cube ? all(6) * s : all(3);  // turn of the step's slope
     bent = longer * bent + turn * (l * error) + rounding * (longer * l);
     error = longer * error + rounding * (longer * s + most);
     m = julia::bend<kIteration>(s, l, m, w) * up;

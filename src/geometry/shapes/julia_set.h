@@ -13,11 +13,11 @@ struct JuliaSet {
   static constexpr int kSurely = 6;  ///< so many numbers count however far apart they have come
 
   julia::Number<Real> constant;
-  Real share;  ///< of the place in what is added at each step: 0, or 1 for a Mandelbrot set
+  Real share;  ///< share of the place in what is added at each step: 0, or 1 for a Mandelbrot set
   int iterations;
   /// A number that is greater at a step surely escapes, one that is less surely stays.
   Real escapes[kMostIterations + 1], stays[kMostIterations + 1];
-  Real mostGrowth;    ///< of the distances between numbers: an orbit that passes it ends before
+  Real mostGrowth;    ///< most growth of the distances between numbers: an orbit that passes it ends before
   Real mostConstant;  ///< the size of what is added, at most
   Real reach;         ///< the set lies within
 };

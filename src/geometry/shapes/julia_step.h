@@ -11,13 +11,13 @@
 
 namespace trace {
 
-/// What is repeated.
+/// The function that is iterated.
 enum class Iteration {
-  square,        ///< of quaternions
-  cube,          ///< of quaternions
+  square,        ///< quaternions: the square
+  cube,          ///< quaternions: the cube
   hypercomplex,  ///< the square of commutative hypercomplex numbers, i^2 = j^2 = -1, k = ij
-  sine,          ///< of quaternions
-  exponential,   ///< of quaternions
+  sine,          ///< quaternions: the sine
+  exponential,   ///< quaternions: the exponential
 };
 constexpr std::array<std::string_view, 5> names(Iteration) {
   return {"square", "cube", "hypercomplex", "sine", "exponential"};

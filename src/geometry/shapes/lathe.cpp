@@ -99,7 +99,7 @@ void TracedLathe::meetArc(const Arc& arc, std::int64_t number, const Ray& ray, c
 
   // The stretch between the two heights. Its ends are the same numbers for the arcs that meet there.
   Real begin = span.from, end = span.to;
-  bool bottomFirst = true, beginIsEnd = false, endIsEnd = false;  // of the arc
+  bool bottomFirst = true, beginIsEnd = false, endIsEnd = false;  // orders at the ends of the arc
   if (d.z != 0) {
     bottomFirst = d.z > 0;
     const Real a = ((bottomFirst ? arc.z0 : arc.z1) - o.z) / d.z,

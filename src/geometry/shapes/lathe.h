@@ -20,7 +20,7 @@ class TracedLathe;
 
 struct Lathe {
   static constexpr std::string_view kKeyword = "lathe";
-  static constexpr std::string_view kHelp = "surface of revolution: a profile turned around z";
+  static constexpr std::string_view kHelp = "surface of revolution: a profile rotated around z";
 
   std::vector<std::array<Real, 2>> profile{{0.4, 0}, {1.2, 0.3}, {0.1, 0.9}, {0.5, 1.5}};
   Spline spline = Spline::bezier;
@@ -54,7 +54,7 @@ class TracedLathe {
     Real u0, u1;  ///< from where it is lowest to where it is highest
     Real r0, z0, r1, z1;
     Real least, most;  ///< distance from the axis, at least and at most
-    int number;        ///< of the curve, along the profile with its caps
+    int number;        ///< number of the curve, along the profile with its caps
     bool flat() const { return z0 == z1; }
     /// Precondition: not flat. Where the arc is at that height.
     Real at(Real z) const { return at(z, 0.5 * (u0 + u1)); }

@@ -17,7 +17,7 @@ class TracedMandelbox;
 
 struct Mandelbox {
   static constexpr std::string_view kKeyword = "mandelbox";
-  static constexpr std::string_view kHelp = "points of space that stay near under folding and scaling";
+  static constexpr std::string_view kHelp = "points of space that stay bounded under folding and scaling";
 
   Real scale = 3, minRadius = 0.5;
   int iterations = 5;
@@ -25,14 +25,14 @@ struct Mandelbox {
   MaterialList materials;
 
   static constexpr auto fields() {
-    return Fields{Field{"scale", &Mandelbox::scale, "", -4, 4, "of the step; farther from 0 than 1.1"},
-                  Field{"min_radius", &Mandelbox::minRadius, "", 0.05, 1,
-                        "of the ball within which points only move out"},
-                  Field{"iterations", &Mandelbox::iterations, "", 1, 30,
-                        "how often the step is repeated: more show more detail"},
-                  Field{"trap", &Mandelbox::trap, "", 0, 0, "what the texture coordinates tell"},
-                  Field{"materials", &Mandelbox::materials, "", 0, 0,
-                        "that follow each other as the trap's least distance grows"}};
+    return Fields{
+        Field{"scale", &Mandelbox::scale, "", -4, 4, "scale of the step; its size is above 1.1"},
+        Field{"min_radius", &Mandelbox::minRadius, "", 0.05, 1,
+              "radius of the sphere within which points only move out"},
+        Field{"iterations", &Mandelbox::iterations, "", 1, 30, "number of iterations; more show more detail"},
+        Field{"trap", &Mandelbox::trap, "", 0, 0, "the meaning of the texture coordinates"},
+        Field{"materials", &Mandelbox::materials, "", 0, 0,
+              "materials in the order of the trap's least distance"}};
   }
   bool operator==(const Mandelbox&) const = default;
 

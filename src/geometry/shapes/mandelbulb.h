@@ -19,7 +19,7 @@ class TracedMandelbulb;
 struct Mandelbulb {
   static constexpr std::string_view kKeyword = "mandelbulb";
   static constexpr std::string_view kHelp =
-      "points of space that stay near under powers of both their angles";
+      "points of space that stay bounded under powers of both their angles";
 
   int power = 8, iterations = 3;
   bool julia = false;
@@ -29,14 +29,15 @@ struct Mandelbulb {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"power", &Mandelbulb::power, "", 2, 16, "how often angles are turned: one less than the arms"},
+        Field{"power", &Mandelbulb::power, "", 2, 16,
+              "factor on both angles: one more than the number of arms"},
         Field{"iterations", &Mandelbulb::iterations, "", 1, 30,
-              "how often the step is repeated: more show more detail"},
-        Field{"julia", &Mandelbulb::julia, "", 0, 1, "the same constant everywhere; else the point itself"},
-        Field{"constant", &Mandelbulb::constant, "", -2, 2, "what is added in a Julia set"},
-        Field{"trap", &Mandelbulb::trap, "", 0, 0, "what the texture coordinates tell"},
+              "number of iterations; more show more detail"},
+        Field{"julia", &Mandelbulb::julia, "", 0, 1, "c is `constant` everywhere; else the point itself"},
+        Field{"constant", &Mandelbulb::constant, "", -2, 2, "c of the Julia set"},
+        Field{"trap", &Mandelbulb::trap, "", 0, 0, "the meaning of the texture coordinates"},
         Field{"materials", &Mandelbulb::materials, "", 0, 0,
-              "that follow each other as the trap's least distance grows"}};
+              "materials in the order of the trap's least distance"}};
   }
   bool operator==(const Mandelbulb&) const = default;
 

@@ -23,7 +23,7 @@ struct Menger {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"levels", &Menger::levels, "", 0, kMostLevels, "how often the cubes are drilled; 0 is a cube"}};
+        Field{"levels", &Menger::levels, "", 0, kMostLevels, "number of drilling levels; 0 is a cube"}};
   }
   bool operator==(const Menger&) const = default;
 
@@ -75,7 +75,7 @@ struct Menger {
   struct Walk {
     const Ray& ray;
     const Range& range;
-    int count;          ///< of finest cells along an axis
+    int count;          ///< count of finest cells along an axis
     Crossing from, to;  ///< the solid stretch met last
     bool open;          ///< ... is not visited yet
 

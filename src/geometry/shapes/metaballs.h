@@ -19,7 +19,7 @@ class TracedMetaballs;
 struct Metaballs {
   static constexpr std::string_view kKeyword = "metaballs";
   static constexpr std::string_view kHelp =
-      "blobs that flow together: where the fields of balls and capsules add up";
+      "blobs: an isosurface of the sum of the fields of balls and capsules";
 
   Real threshold = 0.5;
   std::vector<std::array<Real, 5>> balls{{-0.5, 0, 0, 1, 1}, {0.5, 0, 0, 1, 1}};
@@ -37,7 +37,7 @@ struct Metaballs {
   std::shared_ptr<const TracedMetaballs> prepared() const;
 };
 
-/// What rays meet of them. Along a ray the sum is, between the places where components begin and end, a
+/// Their traced form. Along a ray the sum is, between the places where components begin and end, a
 /// polynomial of degree four, whose extrema say where to look.
 class TracedMetaballs {
  public:

@@ -13,7 +13,7 @@
 
 namespace trace {
 
-/// What texture coordinates of a fractal tell.
+/// The meaning of a fractal's texture coordinates.
 enum class Trap {
   none,   ///< where on a sphere around the middle
   point,  ///< how near the origin its points come

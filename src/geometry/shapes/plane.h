@@ -1,4 +1,4 @@
-// The plane z = 0 without end. It bounds the half of space below it, so that water with a plane for its
+// The plane z = 0 infinite. It bounds the half of space below it, so that water with a plane for its
 // surface has its index of refraction underneath; the normal is +z from either side.
 //
 // Its bounds are infinite: the World tests it apart from the hierarchy. Where a ray runs into the half space
@@ -15,7 +15,7 @@ namespace trace {
 
 struct Plane {
   static constexpr std::string_view kKeyword = "plane";
-  static constexpr std::string_view kHelp = "plane z = 0 without end, solid below; its normal is +z";
+  static constexpr std::string_view kHelp = "infinite plane z = 0, solid below; its normal is +z";
   static constexpr auto fields() { return Fields{}; }
   bool operator==(const Plane&) const = default;
 

@@ -15,8 +15,7 @@ namespace trace {
 
 struct Plant {
   static constexpr std::string_view kKeyword = "plant";
-  static constexpr std::string_view kHelp =
-      "branches grown by the rules of an L-system, from the origin up along z";
+  static constexpr std::string_view kHelp = "branches grown by an L-system, from the origin up along z";
   static constexpr std::size_t kMostSymbols = 4'000'000, kMostBranches = 400'000;
 
   std::string axiom = "X";
@@ -28,16 +27,16 @@ struct Plant {
     return Fields{
         Field{"axiom", &Plant::axiom, "", 0, 0, "the text to begin with"},
         Field{"rules", &Plant::rules, "", 0, 0,
-              "list of \"X = text\"; of several for one symbol, chance chooses"},
-        Field{"iterations", &Plant::iterations, "", 0, 20, "how often all symbols are replaced"},
-        Field{"seed", &Plant::seed, "", 0, kNoLimit,
-              "another number, another plant, if anything is left to chance"},
+              "list of \"X = text\"; among several for one symbol, one is chosen at random"},
+        Field{"iterations", &Plant::iterations, "", 0, 20, "number of times that all symbols are replaced"},
+        Field{"seed", &Plant::seed, "", 0, kNoLimit, "seed of the random numbers"},
         Field{"angle", &Plant::angle, "degrees", 0, 360, "of a turn"},
-        Field{"jitter", &Plant::jitter, "", 0, 1, "how much a turn may differ from that, in parts of it"},
-        Field{"height", &Plant::height, "", 0, kNoLimit, "of the whole: it is scaled to it"},
-        Field{"radius", &Plant::radius, "", 0, kNoLimit, "of the trunk at its foot"},
-        Field{"taper", &Plant::taper, "", 0, 1, "radius at the end of each step, in parts of that before"},
-        Field{"narrow", &Plant::narrow, "", 0, 1, "radius after [ and !, in parts of that before"}};
+        Field{"jitter", &Plant::jitter, "", 0, 1, "largest random deviation of a turn, as a fraction"},
+        Field{"height", &Plant::height, "", 0, kNoLimit, "height of the plant, which is scaled to it"},
+        Field{"radius", &Plant::radius, "", 0, kNoLimit, "radius of the trunk at its foot"},
+        Field{"taper", &Plant::taper, "", 0, 1,
+              "radius at the end of each step, as a fraction of the previous one"},
+        Field{"narrow", &Plant::narrow, "", 0, 1, "radius after [ and !, as a fraction of the previous one"}};
   }
   bool operator==(const Plant&) const = default;
 

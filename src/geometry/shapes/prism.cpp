@@ -177,7 +177,7 @@ TracedPrism::Nearest TracedPrism::nearest(const std::array<Real, 2>& p, Real car
   return found;
 }
 
-/// The curve that a ray becomes in the outline's plane: where it is at t, and how it goes on.
+/// The curve that a ray becomes in the outline's plane: where it is at t, and how it continues.
 class TracedPrism::Twisted {
  public:
   Twisted(const TracedPrism& prism, const Ray& ray)

@@ -36,14 +36,14 @@ struct Prism {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"outline", &Prism::outline, "", -kNoLimit, kNoLimit, "list of (x, y); it closes by itself"},
+        Field{"outline", &Prism::outline, "", -kNoLimit, kNoLimit, "list of (x, y); closed automatically"},
         Field{"holes", &Prism::holes, "", -kNoLimit, kNoLimit,
               "list of outlines; those within holes are solid again"},
         Field{"spline", &Prism::spline, "", 0, 0, "how the points are joined"},
         Field{"height", &Prism::height, "", 0, kNoLimit, "length along z"},
         Field{"taper", &Prism::taper, "", 0, kNoLimit, "scale of the outline at the top; 0 makes a point"},
         Field{"twist", &Prism::twist, "degrees", -kNoLimit, kNoLimit,
-              "by how much the top is turned around z, against the clock"}};
+              "rotation of the top around z, counter-clockwise"}};
   }
   bool operator==(const Prism&) const = default;
 
@@ -63,7 +63,7 @@ class TracedPrism {
   }
 
  private:
-  static constexpr int kStepBits = 24;  ///< of a part: where on the arc, roughly
+  static constexpr int kStepBits = 24;  ///< step bits of a part: where on the arc, roughly
   static constexpr std::int64_t kBottom = 0, kTop = 1, kFirstSide = 2;
 
   struct Arc {

@@ -80,7 +80,7 @@ Arcs<N> arcsOf(Spline spline, const std::vector<std::array<Real, N>>& points) {
 /// The closed curve through (or near) the points, which a line closes if nothing else does.
 inline Arcs<2> loopOf(Spline spline, std::vector<std::array<Real, 2>> points) {
   if (points.empty()) return {};
-  if (spline == Spline::bspline || spline == Spline::catmull) {  // goes on over its beginning
+  if (spline == Spline::bspline || spline == Spline::catmull) {  // continues over its beginning
     const std::vector begin(points.begin(), points.begin() + std::min<std::ptrdiff_t>(std::ssize(points), 3));
     points.insert(points.end(), begin.begin(), begin.end());
   } else if (points.back() != points.front() && (spline == Spline::linear || points.size() % 3 == 0)) {

@@ -24,10 +24,11 @@ struct Puff {
   MaterialList materials;
 
   static constexpr auto fields() {
-    return Fields{Field{"depth", &Puff::depth, "", 0, kNoLimit,
-                        "optical depth through the middle: of 1, 37 % of the light passes"},
-                  Field{"materials", &Puff::materials, "", 0, 0,
-                        "from the thinnest haze to the thickest; without, from clear to its own"}};
+    return Fields{
+        Field{"depth", &Puff::depth, "", 0, kNoLimit,
+              "optical depth through the middle; at 1, 37 % of the light is transmitted"},
+        Field{"materials", &Puff::materials, "", 0, 0,
+              "materials from the thinnest haze to the thickest; by default from clear to its own"}};
   }
   bool operator==(const Puff&) const = default;
 
@@ -67,7 +68,7 @@ struct Puff {
     if (leaving && !within) return 0;
     const auto before = [&](Real s) {
       return s * (h2 - s * s / 3);
-    };  // of the density, from the nearest place
+    };  // coefficients of the density, from the nearest place
     const Real passed = before(h) - before(leaving ? std::clamp(middle, -h, h) : -h);
     const Real share = 1 - std::exp(-std::abs(depth) * 0.75 * passed);
     return std::llround(std::clamp(share, 0.0, 1.0) * static_cast<Real>(kLevels - 1));

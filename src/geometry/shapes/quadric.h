@@ -12,7 +12,7 @@ namespace trace {
 
 struct Quadric {
   static constexpr std::string_view kKeyword = "quadric";
-  static constexpr std::string_view kHelp = "surface of second degree by its ten coefficients, within a box";
+  static constexpr std::string_view kHelp = "quadric by its ten coefficients, within a box";
 
   Vec3 squares{1, 1, -1}, products, linear;
   Real constant = -0.25;
@@ -25,7 +25,7 @@ struct Quadric {
         Field{"products", &Quadric::products, "", -kNoLimit, kNoLimit, "coefficients of x y, x z, y z"},
         Field{"linear", &Quadric::linear, "", -kNoLimit, kNoLimit, "coefficients of x, y, z"},
         Field{"constant", &Quadric::constant, "", -kNoLimit, kNoLimit,
-              "what is added; the sum is below 0 inside"},
+              "the constant term; the sum is negative inside"},
         Field{"low", &Quadric::low, "", -kNoLimit, kNoLimit, "corner of the box that cuts it off"},
         Field{"high", &Quadric::high, "", -kNoLimit, kNoLimit, "opposite corner"},
         Field{"capped", &Quadric::capped, "", 0, 1, "closed by faces of the box; else an open sheet"}};
@@ -125,11 +125,12 @@ struct TwoSheets {
   bool capped = true;
 
   static constexpr auto fields() {
-    return Fields{Field{"height", &TwoSheets::height, "", 0, kNoLimit,
-                        "length along z, half of it on each side of z = 0"},
-                  Field{"radius", &TwoSheets::radius, "", 0, kNoLimit, "radius at both ends"},
-                  Field{"gap", &TwoSheets::gap, "", 0, kNoLimit, "between the bowls, less than the height"},
-                  Field{"capped", &TwoSheets::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
+    return Fields{
+        Field{"height", &TwoSheets::height, "", 0, kNoLimit,
+              "length along z, half of it on each side of z = 0"},
+        Field{"radius", &TwoSheets::radius, "", 0, kNoLimit, "radius at both ends"},
+        Field{"gap", &TwoSheets::gap, "", 0, kNoLimit, "distance between the bowls, less than the height"},
+        Field{"capped", &TwoSheets::capped, "", 0, 1, "closed by flat ends; else an open sheet"}};
   }
   bool operator==(const TwoSheets&) const = default;
 

@@ -20,7 +20,7 @@ struct RoundedBox {
   static constexpr auto fields() {
     return Fields{Field{"size", &RoundedBox::size, "", 0, kNoLimit, "whole width in x, y and z"},
                   Field{"radius", &RoundedBox::radius, "", 0, kNoLimit,
-                        "of the edges, at most half of the least width"}};
+                        "radius of the edges, at most half of the least width"}};
   }
   bool operator==(const RoundedBox&) const = default;
 

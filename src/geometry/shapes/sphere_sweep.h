@@ -22,7 +22,7 @@ class TracedSweep;
 
 struct SphereSweep {
   static constexpr std::string_view kKeyword = "sphere_sweep";
-  static constexpr std::string_view kHelp = "sphere of changing radius carried along a curve";
+  static constexpr std::string_view kHelp = "sphere of varying radius moved along a curve";
 
   std::vector<std::array<Real, 4>> points{
       {-1, 0, 0, 0.25}, {-0.3, 0.5, 0.2, 0.15}, {0.3, -0.5, 0.2, 0.35}, {1, 0, 0, 0.2}};
@@ -49,7 +49,7 @@ class TracedSweep {
   std::int64_t partCount() const { return static_cast<std::int64_t>(arcs_.size()) << kStepBits; }
 
  private:
-  static constexpr int kStepBits = 24;  ///< of a part: where on the arc, roughly
+  static constexpr int kStepBits = 24;  ///< step bits of a part: where on the arc, roughly
 
   struct Arc {
     Cubic<4> curve;

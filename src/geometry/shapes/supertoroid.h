@@ -25,7 +25,7 @@ struct Supertoroid {
     return Fields{
         Field{"major_radius", &Supertoroid::majorRadius, "", 0, kNoLimit,
               "from the axis to the middle of the tube"},
-        Field{"minor_radius", &Supertoroid::minorRadius, "", 0, kNoLimit, "of the tube"},
+        Field{"minor_radius", &Supertoroid::minorRadius, "", 0, kNoLimit, "radius of the tube"},
         Field{"east", &Supertoroid::east, "", 0.05, 2, "around z: towards 0 square, 1 round, 2 a diamond"},
         Field{"north", &Supertoroid::north, "", 0.05, 2, "the tube: towards 0 square, 1 round, 2 a diamond"}};
   }

@@ -329,7 +329,7 @@ void TracedProfileSweep::crossings(const Ray& ray, VisitCrossing visit) const {
   }
   std::sort(events.begin(), events.end(),
             [](const Event& a, const Event& b) { return a.crossing.t < b.crossing.t; });
-  // What lies on the common edge of patches may be met in each.
+  // A point on the common edge of patches may be hit in each.
   const auto same = [&](const Event& a, const Event& b) {
     if (!(a.onEdge && b.onEdge && a.entering == b.entering)) return false;
     const SurfacePoint p = surface(ray, a.crossing), q = surface(ray, b.crossing);

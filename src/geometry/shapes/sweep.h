@@ -24,7 +24,7 @@ class TracedProfileSweep;
 
 struct Sweep {
   static constexpr std::string_view kKeyword = "sweep";
-  static constexpr std::string_view kHelp = "profile of changing size carried along a curve";
+  static constexpr std::string_view kHelp = "profile of varying size moved along a curve";
 
   Prism::Outline profile{{-0.3, -0.1}, {0.3, -0.1}, {0.3, 0.1}, {-0.3, 0.1}};
   Spline profileSpline = Spline::linear;
@@ -42,9 +42,8 @@ struct Sweep {
         Field{"points", &Sweep::points, "", -kNoLimit, kNoLimit,
               "path: list of (x, y, z, scale of the profile)"},
         Field{"spline", &Sweep::spline, "", 0, 0, "how the points of the path are joined"},
-        Field{"twist", &Sweep::twist, "degrees", -kNoLimit, kNoLimit,
-              "by which the end is turned around the path"},
-        Field{"closed", &Sweep::closed, "", 0, 1, "the profile closes by itself; else an open sheet"},
+        Field{"twist", &Sweep::twist, "degrees", -kNoLimit, kNoLimit, "rotation of the end around the path"},
+        Field{"closed", &Sweep::closed, "", 0, 1, "the profile is closed automatically; else an open sheet"},
         Field{"capped", &Sweep::capped, "", 0, 1, "flat ends close the tube; else an open sheet"}};
   }
   bool operator==(const Sweep&) const = default;

@@ -24,10 +24,12 @@ struct Terrain {
   static constexpr auto fields() {
     return Fields{
         Field{"seed", &Terrain::seed, "", 0, kNoLimit, "another number, another landscape"},
-        Field{"points", &Terrain::points, "", 2, kMostPoints, "of the grid along each side"},
-        Field{"octaves", &Terrain::octaves, "", 1, 20, "of noise, each twice as fine as the one before"},
-        Field{"roughness", &Terrain::roughness, "", 0, 1, "how high an octave is beside the one before"},
-        Field{"hills", &Terrain::hills, "", 0, 1000, "of the first octave, along each side"},
+        Field{"points", &Terrain::points, "", 2, kMostPoints, "number of grid points along each side"},
+        Field{"octaves", &Terrain::octaves, "", 1, 20,
+              "octaves of noise, each twice as fine as the previous one"},
+        Field{"roughness", &Terrain::roughness, "", 0, 1,
+              "amplitude of an octave relative to the previous one"},
+        Field{"hills", &Terrain::hills, "", 0, 1000, "hills of the first octave along each side"},
         Field{"ridges", &Terrain::ridges, "", 0, 1, "0: rolling hills; 1: sharp crests"},
         Field{"height", &Terrain::height, "", -kNoLimit, kNoLimit, "about that of the highest hills"},
         Field{"floor", &Terrain::floor, "", -kNoLimit, kNoLimit, "z of the flat bottom"},

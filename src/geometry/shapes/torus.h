@@ -22,7 +22,7 @@ struct Torus {
   static constexpr auto fields() {
     return Fields{Field{"major_radius", &Torus::majorRadius, "", 0, kNoLimit,
                         "from the axis to the middle of the tube"},
-                  Field{"minor_radius", &Torus::minorRadius, "", 0, kNoLimit, "of the tube"}};
+                  Field{"minor_radius", &Torus::minorRadius, "", 0, kNoLimit, "radius of the tube"}};
   }
   bool operator==(const Torus&) const = default;
 

@@ -1,4 +1,4 @@
-// What rays meet of a grid of heights over x and y from -1 to 1.
+// The traced form of a grid of heights over x and y from -1 to 1.
 //
 // Along the ray, z minus the height of a patch is a polynomial: quadratic for bilinear patches, of degree six
 // for bicubic ones (Catmull-Rom). Its sign says where the ray is below. The sign is carried from cell to
@@ -56,7 +56,7 @@ class TracedHeights {
   Real planeX(int column) const { return -1 + 2 * (static_cast<Real>(column) / (grid_.columns - 1)); }
   Real planeY(int row) const { return -1 + 2 * (static_cast<Real>(row) / (grid_.rows - 1)); }
   Patch patch(int column, int row) const;
-  /// Also of the columns and rows just outside of the grid, as the line through the last two goes on.
+  /// Also of the columns and rows just outside of the grid, as the line through the last two continues.
   Real heightBeyond(int column, int row) const;
   Reach reachOf(int column, int row) const;
   int cellOf(Real place, int cells) const;

@@ -14,7 +14,7 @@ namespace trace {
 class Approach {
  public:
   Approach() = default;  ///< no ray comes from far away
-  /// To what lies within `bounds`, which may be empty or without end: then no ray comes from far away.
+  /// To what lies within `bounds`, which may be empty or infinite: then no ray comes from far away.
   explicit Approach(const Box3& bounds);
 
   /// The t at which the ray is taken up; 0 if it starts near enough.

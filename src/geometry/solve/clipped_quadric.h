@@ -1,4 +1,4 @@
-// What rays meet of every quadric: the points of a box where f <= 0, with
+// The traced form of every quadric: the points of a box where f <= 0, with
 //   f = A x^2 + B y^2 + C z^2 + 2 (D x y + E x z + F y z) + 2 (G x + H y + I z) + J,
 // closed by faces where it reaches the box, or open there (Glassner, section 2.3; the quadratic is solved
 // without cancellation). The named quadrics of quadric.h are made of it by prepared().
@@ -20,7 +20,7 @@ struct ClippedQuadric {
   Vec3 linear;    ///< G, H, I: half the coefficients of x, y, z
   Real constant = 0;
   Box3 clip;    ///< infinite where the quadric ends by itself
-  Box3 extent;  ///< of what is left
+  Box3 extent;  ///< extent of what is left
   bool capped = true;
 
   bool solid() const { return capped; }

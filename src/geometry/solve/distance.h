@@ -1,5 +1,5 @@
 // Signed distances from solids, along a line: what blends are made of. Exact, or of faces and edges that go
-// on for ever, where that makes no difference to how a fillet lies; negative inside.
+// on without limit, where that makes no difference to how a fillet lies; negative inside.
 #pragma once
 
 #include "math/along.h"
@@ -11,12 +11,12 @@ namespace trace {
 /// One of a few solids in its place.
 struct DistanceForm {
   enum class Kind {
-    ball,       ///< of `radius` around the origin
-    box,        ///< of half width `size`, and around it `radius`
+    ball,       ///< ball of `radius` around the origin
+    box,        ///< box of half width `size`, and around it `radius`
     cone,       ///< around z, `radius` at z = 0 and `other` at z = `size.z`; also cylinders
     ring,       ///< around z, `radius` to the middle of its tube of radius `other`
     capsule,    ///< within `radius` of the line from the origin to (0, 0, size.z)
-    ellipsoid,  ///< of half width `size`
+    ellipsoid,  ///< ellipsoid of half width `size`
     below,      ///< z < 0
   };
   Kind kind = Kind::ball;

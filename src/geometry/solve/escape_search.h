@@ -68,7 +68,7 @@ class EscapeSearch {
       const Vec3 gradient = gradientAt(p, off, blurred);
       const Real l = length(gradient);
       n = l > 0 && std::isfinite(l) ? gradient / l : normalize(-ray.direction);
-      constexpr Real kMost = 1e-12;  // of the size, where the set is too folded for rounding to tell
+      constexpr Real kMost = 1e-12;  // fraction of the size at which rounding cannot tell
       error += min(off / l, kMost * half);
       if (blurred) error += half * kDetail / 16;
     }

@@ -54,7 +54,7 @@ class LineTree {
     std::uint32_t number;
   };
   std::vector<Alone> alone_;  ///< tested one by one
-  Box3 reach_;                ///< of all others
+  Box3 reach_;                ///< reach of all others
   Bvh bvh_;
 };
 

@@ -26,7 +26,7 @@ inline Box3 roomy(const Box3& box) {
 /// Where the line of a ray enters a box and leaves it. A part is 2 axis + (0 for the low face, 1 for the
 /// high).
 struct BoxCrossings {
-  Crossing in{-kInfinity, 0}, out{kInfinity, 0};  ///< of a miss, not in.t <= out.t
+  Crossing in{-kInfinity, 0}, out{kInfinity, 0};  ///< a miss has in.t > out.t
 };
 
 /// By slabs, axis by axis (Kay and Kajiya, SIGGRAPH 1986, section 2).

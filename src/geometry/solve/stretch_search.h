@@ -10,7 +10,7 @@
 
 namespace trace {
 
-/// What is known of four stretches of a line of equal length, one after another; bit i for number i.
+/// Facts about four stretches of a line of equal length, one after another; bit i for number i.
 struct FourStretches {
   unsigned inside = 0;    ///< the function is negative in the middle
   unsigned keeps = 0;     ///< it keeps that sign all along

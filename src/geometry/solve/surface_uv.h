@@ -8,7 +8,7 @@
 
 namespace trace {
 
-/// u and v of a place on a surface, as a rule from 0 to 1. Angles are worked out when somebody asks, as few
+/// u and v of a place on a surface, as a rule from 0 to 1. Angles are computed when somebody asks, as few
 /// do and they take longer than all else about a place.
 class SurfaceUv {
  public:
@@ -17,7 +17,7 @@ class SurfaceUv {
   constexpr SurfaceUv(const Vec2& uv) : at_(uv.x, uv.y, 0) {}  // NOLINT(google-explicit-constructor)
   /// u goes around z, from 0 at -x by way of -y to 1.
   static constexpr SurfaceUv around(const Vec3& p, Real v) { return {{p.x, p.y, v}, Kind::around}; }
-  /// The same in the unit direction d, with v from 0 at -z up to 1; the middle if d is not finite.
+  /// Texture coordinates by the unit direction d, with v from 0 at -z up to 1; the middle if d is not finite.
   static constexpr SurfaceUv toward(const Vec3& d) { return {d, Kind::toward}; }
 
   operator Vec2() const {  // NOLINT(google-explicit-constructor)

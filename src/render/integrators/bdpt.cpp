@@ -6,6 +6,7 @@
 #include "render/footprint.h"
 #include "render/integrators/bdpt_paths.h"
 #include "render/subsurface.h"
+#include "shading/materials/subsurface.h"
 
 namespace trace {
 
@@ -22,14 +23,14 @@ void Bidirectional::prepare(const World& world, const Settings& settings, Job&) 
   lands_ = camera_.known() && !(settings.outlines > 0);
 }
 
-/// What the way counts whose others count so much beside it; 0 if it is not to be shown.
+/// The MIS weight of a strategy whose others sum to `others`; 0 if the strategy is hidden.
 Real Bidirectional::share(int s, int t, Real others, const Sample& sample) const {
   if (!sample.ways.shows(s, t)) return 0;
   return weighs_ ? sample.ways.counts / (1 + others) : 1;
 }
 
 /// Whether the path tracer would follow such a path from the camera to its end: on the last surface and at
-/// the last place in a medium it only looks for what shines.
+/// the last place in a medium it only looks for emitters.
 bool Bidirectional::allows(const Counts& whole, Last last) const {
   if (whole.surfaces > depth_ + 1 || (whole.surfaces == depth_ + 1 && last != Last::lobe)) return false;
   if (whole.scatterings == 0) return true;
@@ -82,7 +83,7 @@ Color Bidirectional::radiance(Tracer& tracer, Sampler sampler, const CameraRay& 
 }
 
 /// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there. In
-/// media it may go on ten thousand times: no call for each.
+/// media it may continue ten thousand times: no call for each.
 Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
                            const Interfaces& inside, const Sampler& sampler, const Sample& sample) const {
   std::unique_ptr<Scattering> after;
@@ -130,7 +131,7 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
     if (media) coverWithMedia(sum, *media);
     sum.draw(path.ink);
   };
-  /// s = 0: what shines there was met with the densities of being asked for and of having started there.
+  /// s = 0: the emitter there was met with the densities of being asked for and of having started there.
   const auto met = [&](Term::Kind kind, const Color& light, Real asked, Real started) {
     const Partial& p = path.partial;
     const Real others =
@@ -247,7 +248,7 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
   return throughMedium();
 }
 
-/// The radiance along the ray where a medium on its way scatters light to it; unknown where it goes on.
+/// The radiance along the ray where a medium on its way scatters light to it; unknown where it continues.
 Color Bidirectional::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way,
                                const MediumWay::Place& where, Path path, const Interfaces& inside,
                                const Sampler& sampler, const Sample& sample,

@@ -5,7 +5,7 @@
 //   between)
 //
 //   s = 0    the path from the camera met something that shines
-//   s = 1    a place of it asks lights and lamps for their light, as a path tracer does
+//   s = 1    a place of it samples lights and lamps, as a path tracer does
 //   t = 1    a place of the path from the light is seen by the camera: it lands anywhere in the picture
 //   else     a place of one and a place of the other see each other
 //
@@ -59,7 +59,7 @@ class Bidirectional : public Integrator {
   struct Scattering;
   struct Sample;
   struct LightPlace;
-  /// What a whole path's place next to the light is.
+  /// The vertex of a whole path next to the light.
   enum class Last { lobe, mirror, medium };
   /// The ways that a sample shows.
   struct Ways {
@@ -91,7 +91,8 @@ class Bidirectional : public Integrator {
   bool goesOn(Flight& flight, const LightPlace& place, const Sample& sample) const;
   void land(Tracer& tracer, const LightPlace& light, const Sample& sample, const Sampler& sampler) const;
 
-  // What joins them: integrators/bdpt_joins.cpp. `factor` is what the place counts beside the path's weight.
+  // The connections of both paths: integrators/bdpt_joins.cpp. `factor` is the place's factor besides the
+  // path's weight.
   void joinAll(Gather& sum, const PathPlace& at, const Path& path, const Counts& counts, const Color& factor,
                const Sampler& sampler, const Sample& sample) const;
   void askLights(Gather& sum, const PathPlace& at, const Path& path, const Color& factor,
@@ -107,7 +108,7 @@ class Bidirectional : public Integrator {
                                  kLightPath = 0x80000006u, kSpectrum = 0x80000007u, kLens = 0x80000008u,
                                  kWay = 0x80000009u, kToLamp = 0x8000000au, kJoin = 0x8000000bu,
                                  kLand = 0x8000000cu, kBody = 0x8000000du;
-  /// Paths of fewer bounces are not ended by chance.
+  /// Paths of fewer bounces are not ended at random.
   static constexpr int kSurely = 3;
 
   bool multiplexed_;

@@ -66,7 +66,7 @@ void Bidirectional::askLights(Gather& sum, const PathPlace& at, const Path& path
   });
 }
 
-/// s = 1: one place of an object that shines, or of the sky.
+/// s = 1: one place of an emissive object, or of the sky.
 void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path, const Color& factor,
                              const Sampler& sampler, const Sample& sample) const {
   if (lamps_.empty()) return;

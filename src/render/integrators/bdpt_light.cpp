@@ -13,7 +13,7 @@ struct Bidirectional::Flight {
   std::optional<Hit> hit;
   Sampler numbers;
   bool parallel = false;  ///< it comes straight from beyond all distances
-  bool fromSky = false;   ///< ... from what is around the scene
+  bool fromSky = false;   ///< ... from the environment
   /// Nothing has turned it. The next vertex is `way` farther from the light, which arrives there by its own
   /// law, and `through` is what remains of it.
   bool straight = true;
@@ -21,13 +21,13 @@ struct Bidirectional::Flight {
   Color through{1};
   bool open = true;  ///< it has met only what shadow rays pass, too: no vertices of the path, as if holes
   Color power{1}, response{1};
-  Real kept = 1;  ///< of its power, where it was scattered last
+  Real kept = 1;  ///< fraction of its power, where it was scattered last
   Partial partial{};
   Counts counts{};
   Last last = Last::lobe;
 };
 
-/// What is left of the light when it gets to its next place: where a medium scatters it, or on the surface.
+/// The light that remains at its next vertex: where a medium scatters it, or on the surface.
 Color Bidirectional::travels(Tracer& tracer, const Flight& f, std::optional<MediumWay::Place>& where) const {
   const Real far = f.hit ? f.hit->t : kInfinity;
   if (f.parallel) {  // sunlight loses nothing to fog

@@ -1,4 +1,4 @@
-// What the two paths of Bidirectional know on their way.
+// The state of the two paths of Bidirectional.
 #pragma once
 
 #include <deque>
@@ -7,6 +7,7 @@
 
 #include "render/integrators/bdpt.h"
 #include "render/path_place.h"
+#include "shading/materials/subsurface.h"
 
 namespace trace {
 
@@ -22,7 +23,7 @@ struct Bidirectional::Partial {
     vcm *= power(distance2) * c;
     vc *= c;
   }
-  /// It goes on: in a direction of a lobe with that density, which the other way round is `reverse`; at
+  /// It continues: in a direction of a lobe with that density, which the other way round is `reverse`; at
   /// `cosine` to the surface.
   void leave(Real density, Real reverse, Real cosine) {
     vc = power(cosine / density) * (vc * power(reverse) + vcm);
@@ -33,8 +34,8 @@ struct Bidirectional::Partial {
     vc *= power(cosine);
     vcm = 0;
   }
-  /// What all other ways that start on this end count, where the other end comes upon the place with that
-  /// density, and the place sends its path back with `reverse`.
+  /// The weights of all other strategies that start on this end, where the other end comes upon the place
+  /// with that density, and the place sends its path back with `reverse`.
   Real others(Real density, Real reverse) const { return power(density) * (vcm + vc * power(reverse)); }
 };
 
@@ -50,26 +51,26 @@ struct Bidirectional::Counts {
 /// Where a path from the camera is.
 struct Bidirectional::Path {
   RayKind kind = RayKind::camera;
-  Counts counts{};  ///< of the places before
-  Color weight{1};  ///< of the ray's radiance in the sample
+  Counts counts{};  ///< weights of the vertices before
+  Color weight{1};  ///< weight of the ray's radiance in the sample
   Partial partial{};
-  const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
+  const Differentials* differentials = nullptr;  ///< differentials of the ray, if footprints are needed
   Real ink = 0;                                  ///< how much of it an outline covers
   bool fromMedium = false;                       ///< it was scattered in a medium last
   bool asked = false;       ///< it was scattered, and has met since then only panes that shadow rays pass
   bool fromLights = false;  ///< paths from lights bring what mirrors and glass show it
   bool within = false;      ///< it runs in a body, from where light comes out
 
-  int t() const { return counts.all() + 2; }  ///< of the place where it arrives
+  int t() const { return counts.all() + 2; }  ///< number of the vertex where it arrives
 };
 
 /// A place where a medium scatters a path from the camera, until it is known what the ray from there brings.
 struct Bidirectional::Scattering {
   Gather sum;
   MediumTerm how;
-  Color factor{}, passed{};  ///< of what comes, and of the way to the eye
+  Color factor{}, passed{};  ///< radiance of the continuation, and transmittance of the way to the eye
   Real ink = 0, density = 0;
-  // What goes on.
+  // The continuation of the path.
   Ray ray{};
   std::optional<Hit> hit{};
   Path path{};
@@ -97,19 +98,19 @@ struct Bidirectional::LightPlace {
   std::optional<Interaction> at{};
   PathPlace place;
   Color power{};      ///< what arrives, over the density of the place and its cosine
-  Color response{1};  ///< of the wavelength, if the path was split: not in the power
+  Color response{1};  ///< response of the wavelength, if the path was split: not in the power
   Partial partial{};
   bool lit = false;  ///< by a light of the world, straight or through panes that shadow rays pass
-  Counts counts{};   ///< of places up to and with this one
+  Counts counts{};   ///< weights of the vertices up to and with this one
   Last last = Last::lobe;
 
   int s() const { return counts.all() + 1; }
 };
 
-/// What both paths of a sample know.
+/// The data shared by both paths of a sample.
 struct Bidirectional::Sample {
   Real spectrum;  ///< chooses the wavelength, should a path be split
-  Real shift;     ///< of all wavelengths to choose from
+  Real shift;     ///< shift of all wavelengths to choose from
   Ways ways;
   std::deque<LightPlace> lights{};
   std::vector<Thrown>* thrown = nullptr;

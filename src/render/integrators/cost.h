@@ -1,4 +1,4 @@
-// What a pixel costs Whitted's tracer, as a colour: boxes of hierarchies that its rays visited and shapes
+// The cost of a pixel in Whitted's tracer, as a colour: boxes of hierarchies that its rays visited and shapes
 // that they were tested against. Black is none, ever brighter up to white for ten thousand (heatColor); each
 // step of one colour is a factor.
 #pragma once

@@ -12,6 +12,7 @@
 #include "render/photons.h"
 #include "render/render.h"
 #include "render/subsurface.h"
+#include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -26,8 +27,9 @@ constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80
 /// The numbers by which a path came to a place: the second pair chooses the place's lamp, so that what
 /// depends on both is spread evenly, too. Where the camera ray arrives, they are its place in the picture.
 constexpr std::uint32_t kArrival = Sampler::kFilm;
-/// How often a path goes on that was scattered so often and carries so much of what it brings to the sample.
-/// Short ones and those that carry half of it surely: to end them spares less time than the noise costs.
+/// How often a path continues that was scattered that many times and carries so much of what it brings to the
+/// sample. Short ones and those that carry half of it surely: to end them spares less time than the noise
+/// costs.
 Real survival(int bounces, const Color& weight) {
   constexpr int kSurely = 3;
   const Real carries = 2 * maxComponent(weight);
@@ -47,7 +49,7 @@ std::unique_ptr<const SubsurfaceBsdf> takeBody(Interaction& at) {
 
 }  // namespace
 
-/// What shines where a path arrives, for which lamps are asked with the density `other`.
+/// The emission where a path arrives, for which lamps are sampled with the density `other`.
 ChanceTerm PathTracer::shines(const Path& path, Real other) {
   if (path.forCache) return {path.density, other, other > 0 ? 0.0 : 1.0};
   return weighed(path.density, other);
@@ -84,7 +86,7 @@ Color PathTracer::radiance(Tracer& tracer, Sampler sampler, const CameraRay& cam
 }
 
 /// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there. In
-/// media it may go on ten thousand times: no call for each.
+/// media it may continue ten thousand times: no call for each.
 Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
                         const Interfaces& inside, const Sampler& sampler) const {
   std::unique_ptr<Scattering> after;
@@ -109,7 +111,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
                           const Interfaces& inside, const Sampler& sampler,
                           std::unique_ptr<Scattering>& after) const {
   const World& world = tracer.world();
-  // Photons have brought what shines there.
+  // Photons have brought the emitter there.
   const bool photonsBring = !path.maps->caustics.empty();
   const bool brought = path.bounced && path.kind != RayKind::bounce && photonsBring;
   const auto lamp =
@@ -188,9 +190,9 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
     if (!world.lights().empty()) at.addLights(sum, sampler);
     at.addCaustics(sum, path.maps->caustics, sampler.branch(kCaustic));
   }
-  // Photons tell what is scattered. Not where a part of the disk on which they lie is beyond an edge, or
-  // below what stands there: from there the path goes on. So it does to surfaces that are near compared with
-  // the disk, whose light changes within it, but for what their mirrors and lobes throw.
+  // The photon map gives the scattered light. Not where a part of the disk on which they lie is beyond an
+  // edge, or below what stands there: from there the path continues. So it does to surfaces that are near
+  // compared with the disk, whose light changes within it, except for what their mirrors and lobes throw.
   constexpr Real kApart = 4;  // radii of the disk: then light of a small source is blurred by 4 % at most
   bool tells = asks && photonsTell_ && !glossy && scatters(at.bsdf());
   Real apart = 0;
@@ -224,7 +226,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   if (!splits && toLobe < 1) choice.x = sampler.branch(kChoice).next();
   if (toLobe > 0 || cached) addLamp(sum, at, toLobe, sampler);
 
-  /// Whether a ray of that weight goes on, and for how many it then stands.
+  /// Whether a ray of that weight continues, and for how many it then stands.
   const auto goesOn = [&](RayKind kind, const Color& weight) -> std::optional<Real> {
     const Real goes = survival(path.depth, path.weight * weight);
     if (path.depth >= depth_ && kind != RayKind::bounce)
@@ -303,7 +305,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   return throughMedium();
 }
 
-/// The radiance along the ray where a medium on its way scatters light to it; unknown where it goes on.
+/// The radiance along the ray where a medium on its way scatters light to it; unknown where it continues.
 Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way,
                             const MediumWay::Place& place, const Path& path, const Interfaces& inside,
                             const Sampler& sampler, std::unique_ptr<Scattering>& after) const {
@@ -340,7 +342,7 @@ Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way
   return {};
 }
 
-/// The light of one place on an object that shines; `shareOfLobe` is how often a ray into the lobe is
+/// The light of one place on an emissive object; `shareOfLobe` is how often a ray into the lobe is
 /// followed.
 void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& sampler) const {
   if (lamps_.empty()) return;

@@ -1,11 +1,11 @@
 // Path tracing (Kajiya, The Rendering Equation, 1986): all light, however often it is scattered.
 //
-//   L = Le + sum over lights + lamp + weight * L(one ray, chosen by chance)
+//   L = Le + sum over lights + lamp + weight * L(one ray, chosen at random)
 //
-// Lights of the scene are asked one by one, as Whitted's tracer does. One place on the objects that shine is
-// chosen by chance; a bounced ray may also meet them, and the two are weighed by the power heuristic (Veach
+// Lights of the scene are asked one by one, as Whitted's tracer does. One place on the emissive objects is
+// chosen at random; a bounced ray may also meet them, and the two are weighed by the power heuristic (Veach
 // 1997, section 9.2.4). One of a surface's mirrored, refracted and scattered rays is followed.
-// A ray that was bounced as often as the depth allows sends one more, which sees only what shines: so the
+// A ray that was bounced as often as the depth allows sends one more, which sees only emitters: so the
 // last surface is lit in both ways, too. The ambient light is left out: what it stands for is traced.
 //
 // With photons a path ends at the first surface that scatters: lights and lamps are asked, and the photons
@@ -50,13 +50,13 @@ class PathTracer : public Integrator {
   static ChanceTerm shines(const Path& path, Real other);
   void addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& sampler) const;
 
-  // Light from photons that is worked out at few places: integrators/path_cache.cpp.
+  // Light from photons that is computed at few places: integrators/path_cache.cpp.
   class CacheFiller;
   void fillCache(const World& world, const Settings& settings, Job& job);
   bool addCached(Gather& sum, const Interaction& at) const;
 
   Light light_;
-  bool gathers_ = false;      ///< rays look around, and photons tell what they find
+  bool gathers_ = false;      ///< final gathering: rays use the photon map where they end
   bool photonsTell_ = false;  ///< they tell what a place scatters that is seen
   int depth_ = 0;             ///< the most bounces
   int mostScattered_ = 1;     ///< the most times that media scatter
@@ -64,7 +64,7 @@ class PathTracer : public Integrator {
   struct Maps {
     PhotonMap all, caustics, media;
   };
-  std::vector<Maps> maps_;  ///< of each pass; one of empty ones without photons
+  std::vector<Maps> maps_;  ///< maps of each pass; one of empty ones without photons
   IrradianceCache cache_;
 };
 

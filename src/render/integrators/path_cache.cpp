@@ -10,6 +10,7 @@
 #include "render/integrators/path_state.h"
 #include "render/interaction.h"
 #include "render/pixel.h"
+#include "shading/materials/lambert.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -17,9 +18,9 @@ namespace {
 
 /// The share of light that a surface scatters evenly, if that is all that it scatters.
 std::optional<Color> evenShare(const Bsdf& bsdf) {
-  if (const auto* phong = std::get_if<PhongBsdf>(&bsdf)) {
+  if (const auto* phong = bsdf.as<PhongBsdf>()) {
     if (isBlack(phong->specular) && !phong->litFromBehind && !isBlack(phong->diffuse)) return phong->diffuse;
-  } else if (const auto* lambert = std::get_if<LambertBsdf>(&bsdf)) {
+  } else if (const auto* lambert = bsdf.as<LambertBsdf>()) {
     if (lambert->scatters()) return lambert->said.diffuse;
   }
   return {};

@@ -13,6 +13,7 @@
 #include "render/media.h"
 #include "render/subsurface.h"
 #include "shading/dispersion.h"
+#include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 
 namespace trace {
@@ -22,20 +23,20 @@ struct Whitted::Path {
   int depth = 0;
   Color weight{1};    ///< the largest share of the pixel that this ray can still make
   Real spread = 0.5;  ///< where the wavelengths of a fan lie: spectralFan()
-  const Differentials* differentials = nullptr;  ///< of the ray, if they are wanted
+  const Differentials* differentials = nullptr;  ///< differentials of the ray, if footprints are needed
   Real ink = 0;                                  ///< how much of it an outline covers
 };
 
 namespace {
 
-/// Branches of a place's numbers: its lights by their number, and the rays that go on; of a fan the refracted
-/// rays have the numbers from kRefracted on.
+/// Branches of a place's numbers: its lights by their number, and the rays that continue; of a fan the
+/// refracted rays have the numbers from kRefracted on.
 constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
 /// The numbers by which a direction into a lobe is chosen, those of the fog, and those of the lamps.
 constexpr std::uint32_t kLobe = 0x7fffffffu, kFog = 0x7ffffffdu, kLamps = 0x7ffffffau;
-/// And those of the ray that goes straight on where the surface is there in part only.
+/// Factors of the ray that continues straight through a partly open surface.
 constexpr std::uint32_t kStraight = 0x7ffffffbu;
-/// And those of bodies in which light spreads, and of media on the way to a lamp.
+/// Factors of translucent objects, and of media on the way to a lamp.
 constexpr std::uint32_t kBody = 0x7ffffff9u, kToLamp = 0x7ffffff8u;
 
 /// Where sample k of a pixel has its wavelengths between those of sample 0: together they lie evenly (van der
@@ -185,7 +186,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
 /// The radiance along a ray that starts in `inside`.
 Color Whitted::follow(Tracer& tracer, const Ray& ray, const Path& path, Interfaces inside,
                       const Sampler& sampler) const {
-  // What the camera sees through a hole may be nearer to that than the camera sees.
+  // A point seen through a hole may be nearer to that than the camera sees.
   const RayKind kind = path.kind == RayKind::camera ? RayKind::refraction : path.kind;
   const std::optional<Hit> hit = tracer.cast(ray, kind, inside);
   return along(tracer, ray, hit, path, inside, sampler);

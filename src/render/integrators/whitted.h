@@ -5,14 +5,15 @@
 //
 // The camera ray has depth 0; a ray of depth k makes new ones while k < the depth set. Nothing takes the
 // place of the refracted ray under total internal reflection. kr and kt are constants, unless a Fresnel term
-// is asked for. Extras: rough surfaces send a ray by chance, photons show caustics, ambient light is asked
-// for, objects that shine light others, and fog covers what is far.
+// is asked for. Extras: rough surfaces send a ray at random, photons show caustics, ambient light is asked
+// for, emissive objects light others, and fog covers what is far.
 #pragma once
 
 #include "render/gather.h"
 #include "render/integrator.h"
 #include "render/lamps.h"
 #include "render/photons.h"
+#include "shading/materials/subsurface.h"
 
 namespace trace {
 

@@ -21,7 +21,7 @@ class Aperture {
  private:
   int width_, height_;
   std::vector<Real> sums_;     ///< in each row, of the places up to and with each
-  std::vector<Real> rowSums_;  ///< of the rows up to and with each
+  std::vector<Real> rowSums_;  ///< row sums of the rows up to and with each
 };
 
 }  // namespace trace

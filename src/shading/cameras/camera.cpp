@@ -61,7 +61,7 @@ EyePlace eyePlace(Stereo stereo, const Vec2& place) {
 struct CameraFrame::Path {
   Vec3 from, to;  ///< the ray, `to` of length 1
   Vec3 across;    ///< to the right eye
-  Vec3 normal;    ///< of what is at one distance: the planes before the camera, or the spheres around it
+  Vec3 normal;  ///< normal of points at one distance: the planes before the camera, or the spheres around it
 };
 
 CameraFrame frame(const Camera& camera, CameraAxes axes, const Optics& optics) {

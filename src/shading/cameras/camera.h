@@ -27,13 +27,13 @@ struct Camera {
   static constexpr auto fields() {
     return Fields{
         Field{"position", &Camera::position, "", -kNoLimit, kNoLimit, "the eye"},
-        Field{"viewdir", &Camera::viewdir, "", -kNoLimit, kNoLimit, "where it looks"},
-        Field{"updir", &Camera::updir, "", -kNoLimit, kNoLimit, "what is up"},
+        Field{"viewdir", &Camera::viewdir, "", -kNoLimit, kNoLimit, "the viewing direction"},
+        Field{"updir", &Camera::updir, "", -kNoLimit, kNoLimit, "the direction that is up"},
         Field{"fov", &Camera::fov, "degrees", 0, 180, "vertical angle of view"},
         Field{"aspectratio", &Camera::aspectratio, "", 0, kNoLimit, "width / height of the picture"},
         Field{"near", &Camera::near, "", 0, kNoLimit,
               "a camera ray whose first surface is nearer shows nothing"},
-        Field{"far", &Camera::far, "", 0, kNoLimit, "a camera ray sees no farther"}};
+        Field{"far", &Camera::far, "", 0, kNoLimit, "camera rays end at this distance"}};
   }
   bool operator==(const Camera&) const = default;
 };
@@ -52,7 +52,7 @@ struct Lens {
   Real radius = 0;                            ///< 0: a pinhole
   Real focus = 0;                             ///< distance of that plane along the view; 0 until it is known
   int blades = 0;                             ///< corners of the opening; below 3 it is round
-  Real angle = 0;                             ///< of its first corner from the right, radians
+  Real angle = 0;                             ///< angle of its first corner from the right, radians
   std::shared_ptr<const Aperture> picture{};  ///< the opening's shape, if it has one of its own
 
   bool operator==(const Lens&) const = default;
@@ -84,14 +84,14 @@ constexpr Real eyesAcross(Stereo stereo) {
   return stereo == Stereo::off ? 1 : stereo == Stereo::overUnder ? 0.5 : 2;
 }
 
-/// What the options say of the camera, beside what the scene says.
+/// The properties of the camera that options set, beyond those of the scene.
 struct Optics {
   Projection projection = Projection::perspective;
-  Real viewHeight = 0;      ///< of an orthographic picture, in the scene; 0: as the perspective at the middle
+  Real viewHeight = 0;      ///< orthographic; 0: as the perspective at the middle
   Real fisheyeAngle = kPi;  ///< across the shorter side, radians
-  Vec2 shift{};         ///< of the film, in widths and heights of the picture (as a tilt-shift lens shifts)
+  Vec2 shift{};  ///< shift of the film, in widths and heights of the picture (as a tilt-shift lens shifts)
   Real distortion = 0;  ///< k of r' = r (1 + k r^2), r = 1 at the upper edge; above 0 it is a barrel
-  Real tilt = 0;        ///< of the plane in focus, radians: above 0 its upper half comes nearer
+  Real tilt = 0;        ///< tilt of the plane in focus, radians: above 0 its upper half comes nearer
   Lens lens{};
   Stereo stereo = Stereo::off;
   Real eyeSeparation = 0;  ///< 0: a thirtieth of the next
@@ -112,7 +112,7 @@ struct CameraFrame {
   bool sees(Real distance) const { return near <= distance && distance <= far; }
 
   Ray ray(const Vec2& place) const { return plain ? pinhole(place) : bent(place, nullptr); }
-  /// The same from the place of the lens that `u` chooses.
+  /// The ray from the point of the lens that `u` chooses.
   Ray ray(const Vec2& place, const Vec2& u) const {
     if (!plain) return bent(place, &u);
     const Ray middle = pinhole(place);

@@ -22,11 +22,10 @@ struct DirectionalLight {
 
   static constexpr auto fields() {
     return Fields{Field{"direction", &DirectionalLight::direction, "", -kNoLimit, kNoLimit,
-                        "where its light travels to"},
+                        "the direction in which its light travels"},
                   Field{"color", &DirectionalLight::color, "", 0, kNoLimit, "its intensity"},
                   Field{"size", &DirectionalLight::size, "degrees", 0, 180,
-                        "the angle that it covers in the sky, as 0.53 of the sun; more than 0 makes shadows "
-                        "soft"}};
+                        "its angular diameter: the sun has 0.53; above 0 its shadows are soft"}};
   }
   bool operator==(const DirectionalLight&) const = default;
   bool hasSize() const { return size > 0; }

@@ -18,7 +18,7 @@ namespace trace {
 struct GoniometricLight {
   static constexpr std::string_view kKeyword = "goniometric_light";
   static constexpr std::string_view kHelp =
-      "light from a point, by direction as an IES file says; attenuated as that of a point light";
+      "measured light from a point, by an IES file; attenuated like a point light";
 
   Vec3 position{};
   Vec3 direction{0, -1, 0};
@@ -32,15 +32,15 @@ struct GoniometricLight {
   static constexpr auto fields() {
     return Fields{Field{"position", &GoniometricLight::position, "", -kNoLimit, kNoLimit, "where it is"},
                   Field{"direction", &GoniometricLight::direction, "", -kNoLimit, kNoLimit,
-                        "where the file's angles are 0: of most lamps straight down"},
+                        "direction of the file's angles 0: for most luminaires straight down"},
                   Field{"color", &GoniometricLight::color, "", 0, kNoLimit,
                         "its intensity in the brightest direction, or the colour that per_candela scales"},
                   Field{"file", &GoniometricLight::file, "", -kNoLimit, kNoLimit,
-                        "an IES file (LM-63); without one it shines to all sides alike"},
+                        "an IES file (LM-63); without one the light is uniform in all directions"},
                   Field{"up", &GoniometricLight::up, "", -kNoLimit, kNoLimit,
-                        "to where the horizontal angle is 0 (types A and B: what is up)"},
+                        "direction of the horizontal angle 0 (types A and B: the up direction)"},
                   Field{"per_candela", &GoniometricLight::perCandela, "", 0, kNoLimit,
-                        "a factor for each candela of the file; 0: the brightest direction counts as 1"},
+                        "a factor for each candela of the file; 0 scales the brightest direction to 1"},
                   fadingFields<GoniometricLight>(),
                   ballField<GoniometricLight>()};
   }

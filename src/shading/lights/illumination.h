@@ -1,4 +1,4 @@
-// What arrives of a light at a point.
+// The light that arrives at a point.
 #pragma once
 
 #include <algorithm>
@@ -16,17 +16,17 @@ namespace trace {
 struct Illumination {
   Vec3 toLight;            ///< unit
   Real distance;           ///< beyond it nothing casts a shadow; infinite for directional lights
-  Color color;             ///< of the source
+  Color color;             ///< color of the source
   Real attenuation = 1;    ///< by distance
   Color extraHighlight{};  ///< added to `color` in highlights
   Color intensity() const { return color * attenuation; }
-  /// What a surface gives back that scatters so.
+  /// The light reflected by a surface that scatters so.
   Color scattered(const Scatter& scatter) const {
     return intensity() * scatter.sum() + extraHighlight * attenuation * scatter.specular;
   }
 };
 
-/// What is left, at that distance, of a light that has the three coefficients: 1 / (a + b d + c d^2).
+/// The attenuation, at that distance, of a light that has the three coefficients: 1 / (a + b d + c d^2).
 template <class L>
 Real faded(const L& light, Real distance, const Rules& rules) {
   const Real attenuation =
@@ -34,7 +34,7 @@ Real faded(const L& light, Real distance, const Rules& rules) {
   return rules.limitAttenuation ? std::min(1.0, attenuation) : attenuation;
 }
 
-/// What arrives at p of a point at the light's position that shines evenly; nothing at that place itself.
+/// The light that arrives at p from a uniform point at the light's position; nothing at that place itself.
 template <class L>
 std::optional<Illumination> fromPlace(const L& light, const Vec3& p, const Rules& rules) {
   const Vec3 d = light.position - p;

@@ -17,10 +17,10 @@ constexpr auto fadingFields() {
 template <class L>
 constexpr auto ballField() {
   return Field{"radius", &L::radius, "units",
-               0,        kNoLimit,   "of the ball that shines; more than 0 makes shadows soft"};
+               0,        kNoLimit,   "radius of the luminous sphere; above 0 its shadows are soft"};
 }
 
-/// The fields of a lamp that shines to one side.
+/// The fields of a light that shines to one side.
 template <class L>
 constexpr auto beamFields(const char* whereTo) {
   return Fields{Field{"position", &L::position, "", -kNoLimit, kNoLimit, "where it is"},

@@ -11,17 +11,16 @@
 namespace trace {
 
 struct LightLinks {
-  std::string name;                     ///< of the light; may be empty
+  std::string name;                     ///< name of the light; may be empty
   std::vector<std::string> lights{};    ///< names of the objects that it lights; none: all
   std::vector<std::string> excludes{};  ///< names of objects that it does not light
 
   static constexpr auto fields() {
-    return Fields{
-        Field{"name", &LightLinks::name, "", -kNoLimit, kNoLimit, "by which it is told from others"},
-        Field{"lights", &LightLinks::lights, "", -kNoLimit, kNoLimit,
-              "names of the objects that it lights; none: all"},
-        Field{"excludes", &LightLinks::excludes, "", -kNoLimit, kNoLimit,
-              "names of objects that it does not light"}};
+    return Fields{Field{"name", &LightLinks::name, "", -kNoLimit, kNoLimit, "name of the light"},
+                  Field{"lights", &LightLinks::lights, "", -kNoLimit, kNoLimit,
+                        "names of the objects that it lights; none: all"},
+                  Field{"excludes", &LightLinks::excludes, "", -kNoLimit, kNoLimit,
+                        "names of objects that it does not light"}};
   }
   bool operator==(const LightLinks&) const = default;
 };

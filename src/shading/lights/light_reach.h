@@ -27,7 +27,7 @@ struct LightReach {
   Real most = kInfinity;    ///< what remains of it is at most that
 };
 
-/// The reach of a lamp that shines to all sides and fades by three coefficients.
+/// The reach of a light that shines to all sides and fades by three coefficients.
 template <class L>
 LightReach reachOfLamp(const L& light, const Rules& rules) {
   LightReach reach;

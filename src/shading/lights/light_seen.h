@@ -1,4 +1,4 @@
-// What a ray sees that meets a light, of those that are seen.
+// The radiance of a ray that hits a visible light.
 #pragma once
 
 #include <optional>

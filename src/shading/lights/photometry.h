@@ -31,7 +31,7 @@ class Photometry {
   Real brightest() const { return brightest_; }
   /// The largest angle to z at which it may shine, radians.
   Real widest() const { return widest_; }
-  /// What it sends out in all, by quadrature: candelas over the sphere.
+  /// The total power, by quadrature: candelas over the sphere.
   Real lumens() const { return lumens_; }
 
  private:
@@ -44,7 +44,7 @@ class Photometry {
   Real brightest_ = 0, widest_ = kPi, lumens_ = 0;
 };
 
-/// What a file of that name says, behind a shared const handle; null until it is read (formats/ies.h).
+/// The contents of a file of that name, behind a shared const handle; null until it is read (formats/ies.h).
 struct PhotometryFile {
   std::string file;  ///< as the scene names it
   std::shared_ptr<const Photometry> data;

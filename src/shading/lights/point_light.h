@@ -34,7 +34,7 @@ struct PointLight {
                         "added to color in highlights"},
                   ballField<PointLight>(),
                   Field{"visible", &PointLight::visible, "", 0, 1,
-                        "the ball is seen, in mirrors and through glass, too"}};
+                        "the sphere is visible, also in mirrors and through glass"}};
   }
   bool operator==(const PointLight&) const = default;
   bool hasSize() const { return radius > 0; }

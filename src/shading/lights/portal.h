@@ -14,15 +14,15 @@ namespace trace {
 struct Portal {
   static constexpr std::string_view kKeyword = "portal";
   static constexpr std::string_view kHelp =
-      "a window to what is around: rays to that light are sent through it, and it gives none of its own";
+      "a window to the environment, which is sampled through it; it emits nothing";
 
   Vec3 position{};
   Vec3 u{1, 0, 0}, v{0, 1, 0};
 
   static constexpr auto fields() {
     return Fields{Field{"position", &Portal::position, "", -kNoLimit, kNoLimit, "its middle"},
-                  Field{"u", &Portal::u, "", -kNoLimit, kNoLimit, "along one side, as long as that"},
-                  Field{"v", &Portal::v, "", -kNoLimit, kNoLimit, "along the other"}};
+                  Field{"u", &Portal::u, "", -kNoLimit, kNoLimit, "first edge vector"},
+                  Field{"v", &Portal::v, "", -kNoLimit, kNoLimit, "second edge vector"}};
   }
   bool operator==(const Portal&) const = default;
   bool hasSize() const { return false; }

@@ -11,13 +11,13 @@
 #include "shading/lights/illumination.h"
 #include "shading/lights/lamp_fields.h"
 #include "shading/lights/light_reach.h"
-#include "shading/textures/image_map.h"
+#include "shading/pixels.h"
 
 namespace trace {
 
 struct ProjectorLight {
   static constexpr std::string_view kKeyword = "projector_light";
-  static constexpr std::string_view kHelp = "a picture thrown from a point, as by a slide projector";
+  static constexpr std::string_view kHelp = "a picture projected from a point, as by a slide projector";
 
   Vec3 position{};
   Vec3 direction{0, 0, -1};
@@ -36,20 +36,19 @@ struct ProjectorLight {
     return Fields{
         Field{"position", &ProjectorLight::position, "", -kNoLimit, kNoLimit, "where it is"},
         Field{"direction", &ProjectorLight::direction, "", -kNoLimit, kNoLimit,
-              "to where the middle of the picture is thrown"},
-        Field{"color", &ProjectorLight::color, "", 0, kNoLimit, "the intensity of what is white"},
+              "direction of the picture's middle"},
+        Field{"color", &ProjectorLight::color, "", 0, kNoLimit, "the intensity of white"},
         Field{"file", &ProjectorLight::file, "", -kNoLimit, kNoLimit,
-              "the picture; without one it throws a white frame"},
-        Field{"up", &ProjectorLight::up, "", -kNoLimit, kNoLimit, "where the picture's upper edge is"},
+              "the picture; without one it projects a white frame"},
+        Field{"up", &ProjectorLight::up, "", -kNoLimit, kNoLimit, "direction of the picture's upper edge"},
         Field{"fov", &ProjectorLight::fov, "degrees", 0, 180, "vertical angle of the picture"},
         Field{"aspectratio", &ProjectorLight::aspectRatio, "", 0, kNoLimit,
-              "width / height of what is thrown; 0 is that of the picture"},
+              "width / height of the projection; 0 takes that of the picture"},
         Field{"srgb", &ProjectorLight::srgb, "", 0, 1,
-              "its numbers are sRGB and are made linear; otherwise they are taken as they are"},
+              "its numbers are sRGB and are made linear; otherwise they are used unchanged"},
         Field{"filter", &ProjectorLight::filter, "", -kNoLimit, kNoLimit,
-              "how texels are mixed; trilinear and ewa take means over the blur"},
-        Field{"blur", &ProjectorLight::blur, "", 0, 1,
-              "how much it is out of focus: a part of the picture's height"},
+              "texture filter; trilinear and ewa average over the blur"},
+        Field{"blur", &ProjectorLight::blur, "", 0, 1, "defocus, as a fraction of the picture's height"},
         fadingFields<ProjectorLight>(),
         ballField<ProjectorLight>()};
   }
@@ -80,7 +79,7 @@ struct ProjectorLight {
     const Vec2 half = this->half();
     const Vec2 uv{0.5 - dot(arriving->toLight, aim.right) / (2 * half.x * ahead),
                   0.5 - dot(arriving->toLight, aim.up) / (2 * half.y * ahead)};
-    const Real across = blur * half.y / half.x;  // of the picture's width
+    const Real across = blur * half.y / half.x;  // relative to the picture's width
     const Real inFrame = within(uv.x, across) * within(uv.y, blur);
     if (!(inFrame > 0)) return {};
     arriving->attenuation *= inFrame;

@@ -17,8 +17,8 @@ namespace trace {
 struct RectangleLight {
   static constexpr std::string_view kKeyword = "rectangle_light";
   static constexpr std::string_view kHelp =
-      "light from a rectangle, as bright from everywhere in front of it; it fades with the angle that it "
-      "covers";
+      "light from a rectangle with the same radiance in every direction; its falloff follows from its solid "
+      "angle";
 
   Vec3 position{};
   Vec3 u{1, 0, 0}, v{0, 1, 0};
@@ -29,13 +29,13 @@ struct RectangleLight {
     return Fields{
         Field{"position", &RectangleLight::position, "", -kNoLimit, kNoLimit, "its middle"},
         Field{"color", &RectangleLight::color, "", 0, kNoLimit,
-              "what a white surface gives back that sees nothing but the light"},
-        Field{"u", &RectangleLight::u, "", -kNoLimit, kNoLimit, "along one side, as long as that"},
-        Field{"v", &RectangleLight::v, "", -kNoLimit, kNoLimit, "along the other; it shines toward u x v"},
+              "its radiance: the colour of a white surface that sees nothing but the light"},
+        Field{"u", &RectangleLight::u, "", -kNoLimit, kNoLimit, "first edge vector"},
+        Field{"v", &RectangleLight::v, "", -kNoLimit, kNoLimit, "second edge vector; it shines toward u x v"},
         Field{"round", &RectangleLight::round, "", 0, 1, "only the ellipse in the rectangle shines"},
         Field{"two_sided", &RectangleLight::twoSided, "", 0, 1, "it shines to both sides"},
         Field{"visible", &RectangleLight::visible, "", 0, 1,
-              "it is seen where it shines, in mirrors and through glass, too"}};
+              "its shining side is visible, also in mirrors and through glass"}};
   }
   bool operator==(const RectangleLight&) const = default;
   bool hasSize() const { return true; }

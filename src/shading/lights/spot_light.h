@@ -15,8 +15,7 @@ namespace trace {
 
 struct SpotLight {
   static constexpr std::string_view kKeyword = "spot_light";
-  static constexpr std::string_view kHelp =
-      "light from a point into a cone, attenuated as that of a point light";
+  static constexpr std::string_view kHelp = "light from a point into a cone, attenuated like a point light";
 
   Vec3 position{};
   Vec3 direction{0, 0, -1};
@@ -29,11 +28,14 @@ struct SpotLight {
 
   static constexpr auto fields() {
     return Fields{
-        beamFields<SpotLight>("where the cone's axis points to"),
-        Field{"angle", &SpotLight::angle, "degrees", 0, 180, "between the axis and the side of the cone"},
-        Field{"full_angle", &SpotLight::fullAngle, "degrees", 0, 180,
-              "from here to the side of the cone the light falls off to nothing, by degrees"},
-        Field{"exponent", &SpotLight::exponent, "", 0, kNoLimit, "of the cosine to the axis, a factor"},
+        beamFields<SpotLight>("direction of the cone's axis"),
+        Field{"angle", &SpotLight::angle, "degrees", 0, 180,
+              "angle between the axis and the side of the cone"},
+        Field{
+            "full_angle", &SpotLight::fullAngle, "degrees", 0, 180,
+            "from this angle to the side of the cone the light falls off to nothing, linearly in the angle"},
+        Field{"exponent", &SpotLight::exponent, "", 0, kNoLimit,
+              "exponent of the cosine to the axis, a factor on the light"},
         fadingFields<SpotLight>(),
         ballField<SpotLight>()};
   }

@@ -18,7 +18,7 @@ namespace trace {
 struct WarnLight {
   static constexpr std::string_view kKeyword = "warn_light";
   static constexpr std::string_view kHelp =
-      "light from a point by a power of the cosine to its axis, cut by a cone and by six flaps";
+      "studio light: a power of the cosine to its axis, cut by a cone and by six flaps";
 
   Vec3 position{};
   Vec3 direction{0, 0, -1};
@@ -32,11 +32,11 @@ struct WarnLight {
 
   static constexpr auto fields() {
     return Fields{
-        beamFields<WarnLight>("where its axis points to"),
+        beamFields<WarnLight>("direction of its axis"),
         Field{"exponent", &WarnLight::exponent, "", 0, kNoLimit,
-              "of the cosine to the axis: the larger, the narrower the beam"},
+              "exponent of the cosine to the axis: a larger one makes a narrower beam"},
         Field{"angle", &WarnLight::angle, "degrees", 0, 90,
-              "between the axis and the side of the cone that cuts it"},
+              "angle between the axis and the side of the cone that cuts it"},
         Field{"x_min", &WarnLight::xMin, "", -kNoLimit, kNoLimit, "a flap: it lights nothing of smaller x"},
         Field{"x_max", &WarnLight::xMax, "", -kNoLimit, kNoLimit, "a flap: it lights nothing of larger x"},
         Field{"y_min", &WarnLight::yMin, "", -kNoLimit, kNoLimit, "a flap: it lights nothing of smaller y"},

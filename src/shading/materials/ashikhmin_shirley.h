@@ -16,7 +16,7 @@ struct AshikhminShirleyBsdf;
 struct AshikhminShirley : SurfaceFields {
   static constexpr std::string_view kKeyword = "ashikhmin_shirley";
   static constexpr std::string_view kHelp =
-      "anisotropic highlight with Fresnel's effect on a matt base, by Ashikhmin and Shirley";
+      "anisotropic highlight with Fresnel's effect on a diffuse base, by Ashikhmin and Shirley";
   static constexpr bool kReciprocal = true, kKeepsEnergy = true;
   using Bsdf = AshikhminShirleyBsdf;
 
@@ -24,13 +24,12 @@ struct AshikhminShirley : SurfaceFields {
   Real shininess = 10, shininessAcross = 100, angle = 0;
 
   static constexpr auto fields() {
-    return Fields{Field{"diffuse", &AshikhminShirley::diffuse, "", 0, 1, "of the matt base"},
-                  Field{"specular", &AshikhminShirley::specular, "", 0, 1,
-                        "what is mirrored of light along the normal"},
+    return Fields{Field{"diffuse", &AshikhminShirley::diffuse, "", 0, 1, "colour of the diffuse base"},
+                  Field{"specular", &AshikhminShirley::specular, "", 0, 1, "reflectance along the normal"},
                   Field{"shininess", &AshikhminShirley::shininess, "", 0, kNoLimit,
                         "sharpness of the highlight along the direction in which u grows"},
                   Field{"shininess_across", &AshikhminShirley::shininessAcross, "", 0, kNoLimit, "across it"},
-                  Field{"angle", &AshikhminShirley::angle, "degrees", -360, 360, "turns these directions"},
+                  Field{"angle", &AshikhminShirley::angle, "degrees", -360, 360, "rotates these directions"},
                   SurfaceFields::fields()};
   }
   bool operator==(const AshikhminShirley&) const = default;

@@ -28,18 +28,18 @@ struct Cel : SurfaceFields {
   Real highlight = 12;
 
   static constexpr auto fields() {
-    return Fields{Field{"diffuse", &Cel::diffuse, "", 0, 1, "colour in full light"},
-                  Field{"specular", &Cel::specular, "", 0, 1, "colour of the highlight; black has none"},
-                  Field{"shade_color", &Cel::shadeColor, "", 0, 1,
-                        "colour where there is no light, into which the steps go"},
-                  Field{"ramp", &Cel::ramp, "", -kNoLimit, kNoLimit,
-                        "((light, red, green, blue), ...): colours at rising light from 0 to 1, in place of "
-                        "steps; they scale diffuse"},
-                  Field{"steps", &Cel::steps, "", 1, 100, "of light, besides the shade"},
-                  Field{"softness", &Cel::softness, "", 0, 1, "of the edges, as a share of a step"},
-                  Field{"shade", &Cel::shade, "", 0, 1, "share of the light that the side away from it gets"},
-                  Field{"highlight", &Cel::highlight, "degrees", 0, 90, "radius of the highlight"},
-                  SurfaceFields::fields()};
+    return Fields{
+        Field{"diffuse", &Cel::diffuse, "", 0, 1, "colour in full light"},
+        Field{"specular", &Cel::specular, "", 0, 1, "colour of the highlight; black has none"},
+        Field{"shade_color", &Cel::shadeColor, "", 0, 1, "colour of unlit parts, which the steps blend into"},
+        Field{"ramp", &Cel::ramp, "", -kNoLimit, kNoLimit,
+              "((light, red, green, blue), ...): colours for increasing light from 0 to 1, in place of "
+              "steps; they scale diffuse"},
+        Field{"steps", &Cel::steps, "", 1, 100, "number of light steps, without the shade"},
+        Field{"softness", &Cel::softness, "", 0, 1, "softness of the edges, as a fraction of a step"},
+        Field{"shade", &Cel::shade, "", 0, 1, "fraction of the light on the side away from it"},
+        Field{"highlight", &Cel::highlight, "degrees", 0, 90, "radius of the highlight"},
+        SurfaceFields::fields()};
   }
   bool operator==(const Cel&) const = default;
 

@@ -18,7 +18,7 @@ struct CoatedBsdf;
 
 struct Coated : SurfaceFields {
   static constexpr std::string_view kKeyword = "coated";
-  static constexpr std::string_view kHelp = "plastic or varnish: a matt base below a clear layer";
+  static constexpr std::string_view kHelp = "plastic or varnish: a diffuse base below a clear layer";
   static constexpr bool kReciprocal = true, kKeepsEnergy = true;
   using Bsdf = CoatedBsdf;
 
@@ -29,14 +29,14 @@ struct Coated : SurfaceFields {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"diffuse", &Coated::diffuse, "", 0, 1, "of the base"},
-        Field{"index", &Coated::index, "", 0, kNoLimit, "of refraction of the layer"},
+        Field{"diffuse", &Coated::diffuse, "", 0, 1, "colour of the base"},
+        Field{"index", &Coated::index, "", 0, kNoLimit, "index of refraction of the layer"},
         Field{"roughness", &Coated::roughness, "", 0, 1,
-              "of the layer, from 0, a mirror, to 1; its square is the width of the facets' slopes"},
-        Field{"distribution", &Coated::distribution, "", 0, kNoLimit, "how the facets lean"},
+              "roughness of the layer, from 0, a mirror, to 1; the slope width of the facets is its square"},
+        Field{"distribution", &Coated::distribution, "", 0, kNoLimit, "distribution of the facets' slopes"},
         Field{"film", &Coated::film, "nanometres", 0, 5000,
-              "thickness of a film on the layer, whose faces make colours; 0 is none"},
-        Field{"film_index", &Coated::filmIndex, "", 1, kNoLimit, "of refraction of the film"},
+              "thickness of an interference film on the layer; 0 is none"},
+        Field{"film_index", &Coated::filmIndex, "", 1, kNoLimit, "index of refraction of the film"},
         SurfaceFields::fields()};
   }
   bool operator==(const Coated&) const = default;

@@ -35,21 +35,22 @@ struct Conductor : SurfaceFields {
     return Fields{
         Field{"metal", &Conductor::metal, "", 0, kNoLimit, "a metal, by its measured indices of refraction"},
         Field{"color", &Conductor::color, "", 0, 1,
-              "what is mirrored of light along the normal; of a named metal a factor"},
+              "reflectance along the normal; a factor for a named metal"},
         Field{"roughness", &Conductor::roughness, "", 0, 1,
-              "from 0, a mirror, to 1; its square is the width of the facets' slopes"},
+              "from 0, a mirror, to 1; the slope width of the facets is its square"},
         Field{"anisotropy", &Conductor::anisotropy, "", 0, 1, "how much the surface is brushed"},
         Field{"angle", &Conductor::angle, "degrees", -360, 360,
-              "of the grain to the direction in which u grows"},
-        Field{"distribution", &Conductor::distribution, "", 0, kNoLimit, "how the facets lean"},
+              "angle of the grain to the direction in which u grows"},
+        Field{"distribution", &Conductor::distribution, "", 0, kNoLimit,
+              "distribution of the facets' slopes"},
         Field{"film", &Conductor::film, "nanometres", 0, 5000,
-              "thickness of a clear film on it, an oxide, whose faces make colours; 0 is none"},
-        Field{"film_index", &Conductor::filmIndex, "", 1, kNoLimit, "of refraction of the film"},
+              "thickness of a clear interference film, such as an oxide; 0 is none"},
+        Field{"film_index", &Conductor::filmIndex, "", 1, kNoLimit, "index of refraction of the film"},
         SurfaceFields::fields()};
   }
   bool operator==(const Conductor&) const = default;
 
-  /// What one facet mirrors.
+  /// The reflectance of one facet.
   Color mirrored(Real cosine) const {
     const ThinFilm oxide{filmIndex, 1, film};
     if (metal == Metal::none) {

@@ -27,11 +27,13 @@ struct CookTorrance : SurfaceFields {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"diffuse", &CookTorrance::diffuse, "", 0, 1, "share of light scattered evenly"},
-        Field{"specular", &CookTorrance::specular, "", 0, 1, "share of light that the grooves get"},
+        Field{"diffuse", &CookTorrance::diffuse, "", 0, 1, "diffuse reflectance"},
+        Field{"specular", &CookTorrance::specular, "", 0, 1,
+              "specular fraction: light reflected by the grooves"},
         Field{"roughness", &CookTorrance::roughness, "", 0, 1, "root mean square slope m of the grooves"},
-        Field{"index", &CookTorrance::index, "", 0, kNoLimit, "of refraction, its real part"},
-        Field{"absorption", &CookTorrance::absorption, "", 0, kNoLimit, "its imaginary part: 0 is no metal"},
+        Field{"index", &CookTorrance::index, "", 0, kNoLimit, "real part of the index of refraction"},
+        Field{"absorption", &CookTorrance::absorption, "", 0, kNoLimit,
+              "imaginary part of the index: 0 is no metal"},
         SurfaceFields::fields()};
   }
   bool operator==(const CookTorrance&) const = default;

@@ -23,14 +23,15 @@ struct Gooch : SurfaceFields {
   Real coolShare = 0.25, warmShare = 0.5, shininess = 60;
 
   static constexpr auto fields() {
-    return Fields{Field{"diffuse", &Gooch::diffuse, "", 0, 1, "the thing's own colour"},
-                  Field{"cool", &Gooch::cool, "", 0, 1, "colour away from the light"},
-                  Field{"warm", &Gooch::warm, "", 0, 1, "colour towards the light"},
-                  Field{"cool_share", &Gooch::coolShare, "", 0, 1, "of the own colour in the cool one"},
-                  Field{"warm_share", &Gooch::warmShare, "", 0, 1, "of the own colour in the warm one"},
-                  Field{"specular", &Gooch::specular, "", 0, 1, "strength of the highlight"},
-                  Field{"shininess", &Gooch::shininess, "", 0, kNoLimit, "its sharpness"},
-                  SurfaceFields::fields()};
+    return Fields{
+        Field{"diffuse", &Gooch::diffuse, "", 0, 1, "colour of the object"},
+        Field{"cool", &Gooch::cool, "", 0, 1, "colour away from the light"},
+        Field{"warm", &Gooch::warm, "", 0, 1, "colour towards the light"},
+        Field{"cool_share", &Gooch::coolShare, "", 0, 1, "fraction of the object's colour in the cool one"},
+        Field{"warm_share", &Gooch::warmShare, "", 0, 1, "fraction of the object's colour in the warm one"},
+        Field{"specular", &Gooch::specular, "", 0, 1, "strength of the highlight"},
+        Field{"shininess", &Gooch::shininess, "", 0, kNoLimit, "its sharpness"},
+        SurfaceFields::fields()};
   }
   bool operator==(const Gooch&) const = default;
 

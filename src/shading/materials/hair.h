@@ -30,7 +30,7 @@ struct Hair : SurfaceFields {
         Field{"specular", &Hair::specular, "", 0, 1, "strength of the highlight across them"},
         Field{"shininess", &Hair::shininess, "", 0, kNoLimit, "sharpness of the highlight"},
         Field{"angle", &Hair::angle, "degrees", -360, 360,
-              "from the direction in which u grows to that of the strands; 90 is the direction of v"},
+              "angle from the direction in which u grows to that of the strands; 90 is the direction of v"},
         SurfaceFields::fields()};
   }
   bool operator==(const Hair&) const = default;

@@ -30,7 +30,7 @@ struct Hatching : SurfaceFields {
     return Fields{Field{"paper", &Hatching::paper, "", 0, 1, "colour of the paper"},
                   Field{"ink", &Hatching::ink, "", 0, 1, "colour of the strokes"},
                   Field{"screen", &Hatching::screen, "", 0, kNoLimit,
-                        "light below which there is ink, as a rule a texture from 0 to 1"},
+                        "light below which there is ink, usually a texture from 0 to 1"},
                   Field{"softness", &Hatching::softness, "", 0, 1, "width of the edges of strokes"},
                   Field{"gain", &Hatching::gain, "", 0, kNoLimit, "factor on the light, before the screen"},
                   SurfaceFields::fields()};

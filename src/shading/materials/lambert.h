@@ -13,14 +13,14 @@ struct LambertBsdf;
 
 struct Lambert : SurfaceFields {
   static constexpr std::string_view kKeyword = "lambert";
-  static constexpr std::string_view kHelp = "evenly scattering surface, by Lambert";
+  static constexpr std::string_view kHelp = "perfectly diffuse surface, by Lambert";
   static constexpr bool kReciprocal = true, kKeepsEnergy = true;
   using Bsdf = LambertBsdf;
 
   Color diffuse{0.8};
 
   static constexpr auto fields() {
-    return Fields{Field{"diffuse", &Lambert::diffuse, "", 0, 1, "share of light scattered evenly"},
+    return Fields{Field{"diffuse", &Lambert::diffuse, "", 0, 1, "diffuse reflectance"},
                   SurfaceFields::fields()};
   }
   bool operator==(const Lambert&) const = default;

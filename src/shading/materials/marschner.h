@@ -25,7 +25,7 @@ struct MarschnerBsdf;
 
 struct Marschner : SurfaceFields {
   static constexpr std::string_view kKeyword = "marschner";
-  static constexpr std::string_view kHelp = "a strand of hair that mirrors light and lets it through";
+  static constexpr std::string_view kHelp = "a strand of hair that reflects and transmits light";
   static constexpr bool kReciprocal = false, kKeepsEnergy = true;
   using Bsdf = MarschnerBsdf;
 
@@ -34,14 +34,15 @@ struct Marschner : SurfaceFields {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"color", &Marschner::color, "", 0, 1, "of much hair; what a strand lets through follows"},
-        Field{"roughness", &Marschner::roughness, "", 0, 1, "along the strand"},
-        Field{"roughness_around", &Marschner::roughnessAround, "", 0, 1, "around the strand"},
-        Field{"index", &Marschner::index, "", 1, kNoLimit, "of refraction"},
+        Field{"color", &Marschner::color, "", 0, 1,
+              "colour of a head of hair; the absorption of a strand follows from it"},
+        Field{"roughness", &Marschner::roughness, "", 0, 1, "roughness along the strand"},
+        Field{"roughness_around", &Marschner::roughnessAround, "", 0, 1, "roughness around the strand"},
+        Field{"index", &Marschner::index, "", 1, kNoLimit, "index of refraction"},
         Field{"tilt", &Marschner::tilt, "degrees", -20, 20,
-              "of the scales on the strand, which moves the highlights apart"},
+              "tilt of the scales on the strand, which separates the highlights"},
         Field{"angle", &Marschner::angle, "degrees", -360, 360,
-              "from the direction in which u grows to that of the strand; 90 is the direction of v"},
+              "angle from the direction in which u grows to that of the strand; 90 is the direction of v"},
         SurfaceFields::fields()};
   }
   bool operator==(const Marschner&) const = default;
@@ -55,7 +56,7 @@ struct MarschnerBsdf : LocalBsdf<MarschnerBsdf, Marschner> {
   static constexpr std::size_t kLobes = 4;  ///< R, TT, TRT, and the rest
 
   std::array<Real, kLobes> variance{};  ///< along the strand
-  Real scale = 0;                       ///< of the logistic curve around it
+  Real scale = 0;                       ///< scale of the logistic curve around it
   Color absorption;                     ///< along one radius
 
   MarschnerBsdf() = default;

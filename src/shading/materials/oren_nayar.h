@@ -23,7 +23,7 @@ struct OrenNayar : SurfaceFields {
   Real roughness = 0.5;
 
   static constexpr auto fields() {
-    return Fields{Field{"diffuse", &OrenNayar::diffuse, "", 0, 1, "share of light that the facets scatter"},
+    return Fields{Field{"diffuse", &OrenNayar::diffuse, "", 0, 1, "reflectance of the facets"},
                   Field{"roughness", &OrenNayar::roughness, "radians", 0, 1.5,
                         "standard deviation of the facets' slope angle; 0 is Lambert's surface"},
                   SurfaceFields::fields()};
@@ -35,7 +35,7 @@ struct OrenNayar : SurfaceFields {
 };
 
 struct OrenNayarBsdf : LocalBsdf<OrenNayarBsdf, OrenNayar> {
-  Real a = 1, b = 0;  ///< of equation 30
+  Real a = 1, b = 0;  ///< a and b of equation 30
 
   OrenNayarBsdf() = default;
   explicit OrenNayarBsdf(const OrenNayar& model) : LocalBsdf(model) {

@@ -22,22 +22,23 @@ struct Phong : Interior {
 
   Color emissive, ambient, diffuse, specular, reflective, transmissive;
   Real shininess = 0;  ///< exponent of the highlight
-  Real index = 1;      ///< of refraction
+  Real index = 1;      ///< index of refraction
   Real shadow = 1;     ///< how dark shadows on it are: 0 shows none
 
   static constexpr auto fields() {
     return Fields{
 
-        Field{"emissive", &Phong::emissive, "", 0, kNoLimit, "light the surface gives off by itself"},
-        Field{"ambient", &Phong::ambient, "", 0, 1, "share of the ambient light given back"},
-        Field{"diffuse", &Phong::diffuse, "", 0, 1, "share of light scattered evenly"},
+        Field{"emissive", &Phong::emissive, "", 0, kNoLimit, "emitted light"},
+        Field{"ambient", &Phong::ambient, "", 0, 1, "reflectance for ambient light"},
+        Field{"diffuse", &Phong::diffuse, "", 0, 1, "diffuse reflectance"},
         Field{"specular", &Phong::specular, "", 0, 1, "strength of the highlight"},
         Field{"reflective", &Phong::reflective, "", 0, 1, "weight of the mirrored ray"},
         Field{"transmissive", &Phong::transmissive, "", 0, 1,
-              "weight of the refracted ray, filter of shadows"},
+              "weight of the refracted ray, and the colour of shadows"},
         Field{"shininess", &Phong::shininess, "", 0, kNoLimit, "sharpness of the highlight"},
         Field{"index", &Phong::index, "", 0, kNoLimit, "index of refraction"},
-        Field{"shadow", &Phong::shadow, "", 0, 1, "share of a light that a shadow on the surface takes away"},
+        Field{"shadow", &Phong::shadow, "", 0, 1,
+              "fraction of a light that a shadow on the surface takes away"},
         Interior::fields()};
   }
   bool operator==(const Phong&) const = default;
@@ -79,8 +80,8 @@ struct PhongBsdf : WhittedTerms {
   Color mirrorWeight(Real) const { return reflective; }
   Color passWeight(Real) const { return transmissive; }
 
-  /// What of light from `toLight` goes toward `toEye` at a surface of normal `n` (all unit vectors).
-  /// The highlight is not multiplied by N.L.
+  /// The fraction of light from `toLight` that goes toward `toEye` at a surface of normal `n` (all unit
+  /// vectors). The highlight is not multiplied by N.L.
   Scatter scatter(const Vec3& n, const Vec3& toLight, const Vec3& toEye) const {
     const Real cosLight = dot(n, toLight);
     Scatter scatter{diffuse * (litFromBehind ? std::abs(cosLight) : std::max(0.0, cosLight)), {}};
@@ -99,7 +100,7 @@ struct PhongBsdf : WhittedTerms {
     return scatter;
   }
 
-  /// The same where light transport asks: only light on the eye's side of the surface, or either side where
+  /// The scattering for light transport: only light on the eye's side of the surface, or either side where
   /// it is lit from behind.
   Color evaluate(const Frame& frame, const Vec3& toEye, const Vec3& toLight, Transport) const {
     if (!(dot(frame.normal, toEye) > 0) || !(litFromBehind || dot(frame.normal, toLight) > 0))

@@ -3,7 +3,7 @@
 // glTF 2.0, appendix B, KHR_materials_clearcoat, KHR_materials_sheen, KHR_materials_anisotropy,
 // KHR_materials_iridescence, KHR_materials_specular). Where specular_strength is below 1, the rest of the
 // base has no layer that mirrors. Where it is transparent it is a thin sheet: what its facets do not mirror
-// goes on as a lobe that lies as the mirrored one does, on the other side (KHR_materials_transmission).
+// continues as a lobe that lies as the mirrored one does, on the other side (KHR_materials_transmission).
 // Variant: GGX; the base is coupled to what lies on it as in shading/coating.h, and each layer takes from
 // those below what it gives back itself, on the way in and out. Reciprocal. Energy: gives back at most what
 // arrives; with grain within a few percent.
@@ -42,31 +42,32 @@ struct Principled : SurfaceFields {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"color", &Principled::color, "", 0, 1, "of the matt base, or what the metal mirrors"},
+        Field{"color", &Principled::color, "", 0, 1, "colour of the diffuse base, or of the metal"},
         Field{"metallic", &Principled::metallic, "", 0, 1, "from 0, plastic, to 1, metal"},
-        Field{"roughness", &Principled::roughness, "", 0, 1, "its square is the width of the facets' slopes"},
-        Field{"index", &Principled::index, "", 0, kNoLimit, "of refraction, of what is no metal"},
+        Field{"roughness", &Principled::roughness, "", 0, 1, "the slope width of the facets is its square"},
+        Field{"index", &Principled::index, "", 0, kNoLimit, "index of refraction of the non-metal"},
         Field{"transmission", &Principled::transmission, "", 0, 1,
-              "share of light that goes on through what is no metal, as through a thin sheet"},
+              "fraction of light transmitted by the non-metal, as through a thin sheet"},
         Field{"specular_strength", &Principled::specularStrength, "", 0, 1,
-              "how much of what is no metal mirrors at all"},
+              "strength of the non-metal's reflection"},
         Field{"specular_color", &Principled::specularColor, "", 0, kNoLimit,
-              "tints what that mirrors along the normal; no more than all light is mirrored"},
+              "tint of that reflection along the normal; at most all light is reflected"},
         Field{"anisotropy", &Principled::anisotropy, "", 0, 1, "how much the surface is brushed"},
         Field{"angle", &Principled::angle, "degrees", -360, 360,
-              "of the grain to the direction in which u grows"},
-        Field{"clearcoat", &Principled::clearcoat, "", 0, 1, "how much of a clear layer lies on it"},
-        Field{"clearcoat_roughness", &Principled::clearcoatRoughness, "", 0, 1, "of that layer"},
+              "angle of the grain to the direction in which u grows"},
+        Field{"clearcoat", &Principled::clearcoat, "", 0, 1, "strength of the clear coat"},
+        Field{"clearcoat_roughness", &Principled::clearcoatRoughness, "", 0, 1,
+              "roughness of the clear coat"},
         Field{"clearcoat_bump", &Principled::clearcoatBump, "units of the object", -kNoLimit, kNoLimit,
-              "how high that layer seems to stand where the texture that it scales is white, if it is apart"},
+              "apparent height of the clear coat where its texture is white, if clearcoat_apart is on"},
         Field{"clearcoat_apart", &Principled::clearcoatApart, "", -kNoLimit, kNoLimit,
-              "`bump` does not bend that layer, `clearcoat_bump` does"},
+              "the clear coat ignores `bump` and uses `clearcoat_bump`"},
         Field{"sheen", &Principled::sheen, "", 0, 1, "colour of fibres on it"},
-        Field{"sheen_roughness", &Principled::sheenRoughness, "", 0, 1, "how disorderly they stand"},
+        Field{"sheen_roughness", &Principled::sheenRoughness, "", 0, 1, "roughness of the fibres"},
         Field{"iridescence", &Principled::iridescence, "", 0, 1,
-              "how much of a thin film, whose faces make colours, lies on the base"},
+              "strength of an interference film on the base"},
         Field{"iridescence_index", &Principled::iridescenceIndex, "", 0, kNoLimit,
-              "of refraction of the film"},
+              "index of refraction of the film"},
         Field{"iridescence_thickness", &Principled::iridescenceThickness, "nanometres", 0, 5000,
               "of the film"},
         SurfaceFields::fields()};
@@ -99,7 +100,7 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
 
   bool exactFresnel = false;
   Coating plastic, clear;
-  Real passing = 0;  ///< share of light that goes on through the sheet
+  Real passing = 0;  ///< share of light that continues through the sheet
   MicrofacetLobe metal;
   Sheen fibres;
 
@@ -194,7 +195,7 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
   }
 
  private:
-  /// What one facet of metal mirrors.
+  /// The reflectance of one facet of metal.
   Color metalMirrors(Real cosine) const {
     const Color bare = schlick(cosine, said.color);
     if (!(said.iridescence > 0 && said.iridescenceThickness > 0)) return bare;
@@ -204,12 +205,12 @@ struct PrincipledBsdf : LocalBsdf<PrincipledBsdf, Principled> {
   static void cover(Scatter& below, Real through, const Color& layer) {
     below = {below.diffuse * through, below.specular * through + layer};
   }
-  /// Of light that meets a facet at that cosine, through it and the colour below.
+  /// The transmittance of a facet at that cosine, and of the colour below.
   Color passed(Real cosine) const {
     const Color mirrors = plastic.fresnel(cosine) * said.specularStrength;
     return said.color * (Color(1) + mirrors * -1) * passing;
   }
-  /// What the layers leave of light from one direction to another.
+  /// The transmittance of the layers from one direction to another.
   Real layers(const Vec3& eye, const Vec3& light, const Vec3& coat) const {
     Real through = isBlack(said.sheen) ? 1 : throughSheen(eye, light);
     if (said.clearcoat > 0) through *= throughClear(clearAt(eye, light, coat));

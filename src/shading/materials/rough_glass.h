@@ -35,13 +35,14 @@ struct RoughGlass : SurfaceFields, Interior {
   bool compensated = false;
 
   static constexpr auto fields() {
-    return Fields{Field{"color", &RoughGlass::color, "", 0, 1, "of what passes the surface"},
-                  Field{"index", &RoughGlass::index, "", 0, kNoLimit, "of refraction"},
+    return Fields{Field{"color", &RoughGlass::color, "", 0, 1, "transmittance of the surface"},
+                  Field{"index", &RoughGlass::index, "", 0, kNoLimit, "index of refraction"},
                   Field{"roughness", &RoughGlass::roughness, "", 0, 1,
-                        "from 0, clear glass, to 1; its square is the width of the facets' slopes"},
-                  Field{"distribution", &RoughGlass::distribution, "", 0, kNoLimit, "how the facets lean"},
+                        "from 0, clear glass, to 1; the slope width of the facets is its square"},
+                  Field{"distribution", &RoughGlass::distribution, "", 0, kNoLimit,
+                        "distribution of the facets' slopes"},
                   Field{"compensated", &RoughGlass::compensated, "", 0, 1,
-                        "light that meets several facets is not lost"},
+                        "multiple scattering between facets is not lost"},
                   SurfaceFields::fields(),
                   Interior::fields()};
   }
@@ -62,7 +63,7 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
   static constexpr bool kTwoSided = true, kHasInside = true;
 
   Microfacets facets;
-  GlassLoss loss;  ///< of light that meets several facets, where it is compensated
+  GlassLoss loss;  ///< loss of light that meets several facets, where it is compensated
 
   RoughGlassBsdf() = default;
   explicit RoughGlassBsdf(const RoughGlass& model) : LocalBsdf(model) {

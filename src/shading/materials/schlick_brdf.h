@@ -26,12 +26,11 @@ struct SchlickModel : SurfaceFields {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"color", &SchlickModel::color, "", 0, 1,
-              "what is given back of light along the half-way vector"},
+        Field{"color", &SchlickModel::color, "", 0, 1, "reflectance along the half-way vector"},
         Field{"roughness", &SchlickModel::roughness, "", 0, 1, "from 0, a mirror, to 1, Lambert's surface"},
         Field{"isotropy", &SchlickModel::isotropy, "", 0, 1, "from 0, all grain, to 1, no grain"},
         Field{"angle", &SchlickModel::angle, "degrees", -360, 360,
-              "of the grain to the direction in which u grows"},
+              "angle of the grain to the direction in which u grows"},
         SurfaceFields::fields()};
   }
   bool operator==(const SchlickModel&) const = default;

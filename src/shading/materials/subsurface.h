@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 3> names(Spreading) { return {"dipole", "
 
 struct Subsurface : SurfaceFields {
   static constexpr std::string_view kKeyword = "subsurface";
-  static constexpr std::string_view kHelp = "marble, milk, skin, jade: light is scattered inside the body";
+  static constexpr std::string_view kHelp = "marble, milk, skin, jade: light is scattered inside the object";
   static constexpr bool kReciprocal = true, kKeepsEnergy = true;
   using Bsdf = SubsurfaceBsdf;
 
@@ -37,16 +37,17 @@ struct Subsurface : SurfaceFields {
   static constexpr auto fields() {
     return Fields{
         Field{"scatters", &Subsurface::scatters, "per millimetre", 0, kNoLimit,
-              "reduced scattering coefficient: how much light is turned round along a millimetre"},
+              "reduced scattering coefficient, per millimetre"},
         Field{"absorbs", &Subsurface::absorbs, "per millimetre", 0, kNoLimit,
-              "absorption coefficient: how much is swallowed along a millimetre"},
+              "absorption coefficient, per millimetre"},
         Field{"millimetres", &Subsurface::millimetres, "", 0, kNoLimit,
-              "how many are a unit of the scene: the fewer, the more light shines through"},
-        Field{"index", &Subsurface::index, "", 1, kNoLimit, "of refraction"},
-        Field{"roughness", &Subsurface::roughness, "", 0, 1,
-              "of the surface, from 0, a mirror, to 1; its square is the width of the facets' slopes"},
+              "millimetres per unit of the scene: fewer make it more translucent"},
+        Field{"index", &Subsurface::index, "", 1, kNoLimit, "index of refraction"},
+        Field{
+            "roughness", &Subsurface::roughness, "", 0, 1,
+            "roughness of the surface, from 0, a mirror, to 1; the slope width of the facets is its square"},
         Field{"spreading", &Subsurface::spreading, "", 0, kNoLimit,
-              "by what light spreads in the body: two profiles, or step by step"},
+              "method: one of two profiles, or a random walk"},
         SurfaceFields::fields()};
   }
   bool operator==(const Subsurface&) const = default;
@@ -94,13 +95,13 @@ struct SubsurfaceBsdf : LocalBsdf<SubsurfaceBsdf, Subsurface> {
     return other;
   }
 
-  /// What of light to the eye comes out of the body.
+  /// The fraction of light to the eye that leaves the object.
   Color passes(Real cosine) const {
     const Color mirrored = coat.albedo({0, 0, max(0, min(1, cosine))});
     return {max(0, 1 - mirrored.r), max(0, 1 - mirrored.g), max(0, 1 - mirrored.b)};
   }
 
-  /// What goes in of light from there, over what goes in of light from everywhere.
+  /// The light that enters from there, over the light that enters from everywhere.
   Color enters(Real cosine) const {
     const Color in = passes(cosine);
     const auto share = [](Real a, Real mirrored) { return mirrored < 1 ? a / (1 - mirrored) : 0; };

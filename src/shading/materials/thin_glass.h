@@ -1,8 +1,8 @@
 // A pane whose two faces lie so close together that light goes straight through it: windows, glasses of
 // spectacles, soap bubbles. Light that is mirrored to and fro inside it is summed: of a pane thick against
 // the wavelength by its power, of a film with its phase (shading/thin_film.h). Fresnel's formula is exact.
-// Reciprocal: what goes straight on and what is mirrored is the same from both sides. Energy: all of it, but
-// for what `color` takes.
+// Reciprocal: what goes straight on and what is mirrored is the same from both sides. Energy: all of it,
+// except for what `color` takes.
 //
 // It encloses nothing: what is inside of a bubble is air.
 #pragma once
@@ -19,8 +19,7 @@ struct ThinGlassBsdf;
 
 struct ThinGlass : SurfaceFields {
   static constexpr std::string_view kKeyword = "thin_glass";
-  static constexpr std::string_view kHelp =
-      "a window pane or a soap bubble: mirrors, and does not bend light";
+  static constexpr std::string_view kHelp = "a window pane or a soap bubble: reflects, and does not refract";
   static constexpr bool kReciprocal = true, kKeepsEnergy = true;
   using Bsdf = ThinGlassBsdf;
 
@@ -28,12 +27,11 @@ struct ThinGlass : SurfaceFields {
   Real index = 1.5, film = 0;
 
   static constexpr auto fields() {
-    return Fields{
-        Field{"color", &ThinGlass::color, "", 0, 1, "what is left of light that crosses it along the normal"},
-        Field{"index", &ThinGlass::index, "", 0, kNoLimit, "of refraction"},
-        Field{"film", &ThinGlass::film, "nanometres", 0, 5000,
-              "thickness of a film whose faces make colours, 100 to 1000 for soap; 0 is a pane without"},
-        SurfaceFields::fields()};
+    return Fields{Field{"color", &ThinGlass::color, "", 0, 1, "transmittance along the normal"},
+                  Field{"index", &ThinGlass::index, "", 0, kNoLimit, "index of refraction"},
+                  Field{"film", &ThinGlass::film, "nanometres", 0, 5000,
+                        "thickness of an interference film, 100 to 1000 for soap; 0 is a plain pane"},
+                  SurfaceFields::fields()};
   }
   bool operator==(const ThinGlass&) const = default;
 

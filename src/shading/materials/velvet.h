@@ -22,9 +22,9 @@ struct Velvet : SurfaceFields {
   Real roughness = 0.4;
 
   static constexpr auto fields() {
-    return Fields{Field{"diffuse", &Velvet::diffuse, "", 0, 1, "of the cloth below the fibres"},
-                  Field{"sheen", &Velvet::sheen, "", 0, 1, "of the fibres"},
-                  Field{"roughness", &Velvet::roughness, "", 0, 1, "how disorderly the fibres stand"},
+    return Fields{Field{"diffuse", &Velvet::diffuse, "", 0, 1, "colour of the cloth below the fibres"},
+                  Field{"sheen", &Velvet::sheen, "", 0, 1, "colour of the fibres"},
+                  Field{"roughness", &Velvet::roughness, "", 0, 1, "roughness of the fibres"},
                   SurfaceFields::fields()};
   }
   bool operator==(const Velvet&) const = default;

@@ -25,12 +25,12 @@ struct Ward : SurfaceFields {
 
   static constexpr auto fields() {
     return Fields{
-        Field{"diffuse", &Ward::diffuse, "", 0, 1, "share of light scattered evenly"},
-        Field{"specular", &Ward::specular, "", 0, 1, "share of light in the highlight"},
+        Field{"diffuse", &Ward::diffuse, "", 0, 1, "diffuse reflectance"},
+        Field{"specular", &Ward::specular, "", 0, 1, "specular reflectance"},
         Field{"roughness", &Ward::roughness, "", 0, 1, "standard deviation of the slopes along the grain"},
         Field{"roughness_across", &Ward::roughnessAcross, "", 0, 1,
               "that across the grain; the grain runs where u grows"},
-        Field{"angle", &Ward::angle, "degrees", -360, 360, "turns the grain; 90 is the direction of v"},
+        Field{"angle", &Ward::angle, "degrees", -360, 360, "rotates the grain; 90 is the direction of v"},
         SurfaceFields::fields()};
   }
   bool operator==(const Ward&) const = default;
@@ -71,7 +71,7 @@ struct WardBsdf : LocalBsdf<WardBsdf, Ward> {
   }
   Real directionDensity(const Vec3& eye, const Vec3& light) const {
     Vec3 half = halfway(eye, light);
-    if (half.z < 0) half = -half;  // of a mirror that is seen from behind
+    if (half.z < 0) half = -half;  // for a mirror that is seen from behind
     const Real facing = std::abs(dot(eye, half));
     const Real spread = Microfacets{Distribution::beckmann, ax, ay}.spread(half) * half.z;
     return (facing > 0 ? share * spread / (4 * facing) : 0) + (1 - share) * cosineDensity(light);

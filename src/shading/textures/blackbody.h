@@ -12,7 +12,7 @@ namespace trace {
 struct Blackbody {
   static constexpr std::string_view kKeyword = "blackbody";
   static constexpr std::string_view kHelp =
-      "the colour and brightness of what is as hot as that: fire, embers, molten metal";
+      "the colour and brightness of a black body: fire, embers, molten metal";
 
   Real temperature = 1900;
   Real brightness = 1;

@@ -7,7 +7,7 @@ namespace trace {
 
 struct Brick {
   static constexpr std::string_view kKeyword = "brick";
-  static constexpr std::string_view kHelp = "bricks and mortar: courses stand on each other along y";
+  static constexpr std::string_view kHelp = "bricks and mortar: courses are stacked along y";
 
   Color a{0.55, 0.18, 0.12}, b{0.75, 0.72, 0.68};
   Vec3 size{1, 0.4, 0.5};
@@ -21,7 +21,7 @@ struct Brick {
                         "a brick with its mortar; 0 along an axis: no joints there"},
                   Field{"mortar", &Brick::mortar, "", 0, kNoLimit, "the width of the joints"},
                   Field{"offset", &Brick::offset, "", 0, 1,
-                        "how much of a brick a course is moved against the one below"},
+                        "offset of a course from the one below, as a fraction of a brick"},
                   Field{"space", &Brick::space, "", -kNoLimit, kNoLimit,
                         "solid, or in u and v, without joints along z"}};
   }

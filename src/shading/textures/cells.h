@@ -79,7 +79,7 @@ constexpr std::array<std::string_view, 4> names(CellValue) { return {"f1", "f2",
 
 struct Cells : PatternColors {
   static constexpr std::string_view kKeyword = "cells";
-  static constexpr std::string_view kHelp = "Worley's cells: distances to points strewn in space";
+  static constexpr std::string_view kHelp = "Worley's cells: distances to points scattered in space";
 
   CellValue value = CellValue::f1;
   Real jitter = 1;

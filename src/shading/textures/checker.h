@@ -7,14 +7,15 @@ namespace trace {
 
 struct Checker {
   static constexpr std::string_view kKeyword = "checker";
-  static constexpr std::string_view kHelp = "two colours in turn, in cubes of side 1 or squares of u and v";
+  static constexpr std::string_view kHelp =
+      "two alternating colours, in cubes of side 1 or squares of u and v";
 
   Color a{1}, b{};
   TextureSpace space = TextureSpace::point;
 
   static constexpr auto fields() {
     return Fields{Field{"a", &Checker::a, "", 0, kNoLimit, "the colour at (0.5, 0.5, 0.5)"},
-                  Field{"b", &Checker::b, "", 0, kNoLimit, "the other"},
+                  Field{"b", &Checker::b, "", 0, kNoLimit, "the other colour"},
                   Field{"space", &Checker::space, "", -kNoLimit, kNoLimit, "cubes, or squares of u and v"}};
   }
   bool operator==(const Checker&) const = default;

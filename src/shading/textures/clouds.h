@@ -18,10 +18,11 @@ struct Clouds : PatternColors, FractalSum {
   }
 
   static constexpr auto fields() {
-    return Fields{
-        PatternColors::fields(), Field{"cover", &Clouds::cover, "", 0, 1, "how much of the sky they hide"},
-        Field{"softness", &Clouds::softness, "", 0, 1, "how slowly they begin"},
-        Field{"time", &Clouds::time, "", -kNoLimit, kNoLimit, "lets them change"}, FractalSum::fields()};
+    return Fields{PatternColors::fields(),
+                  Field{"cover", &Clouds::cover, "", 0, 1, "how much of the sky they hide"},
+                  Field{"softness", &Clouds::softness, "", 0, 1, "softness of their edges"},
+                  Field{"time", &Clouds::time, "", -kNoLimit, kNoLimit, "time, which changes them"},
+                  FractalSum::fields()};
   }
   bool operator==(const Clouds&) const = default;
 

@@ -24,7 +24,7 @@ struct Gradient : PatternColors {
   static constexpr auto fields() {
     return Fields{PatternColors::fields(),
                   Field{"shape", &Gradient::shape, "", -kNoLimit, kNoLimit, "which way it grows"},
-                  Field{"repeat", &Gradient::repeat, "", -kNoLimit, kNoLimit, "what is seen beyond 1"},
+                  Field{"repeat", &Gradient::repeat, "", -kNoLimit, kNoLimit, "the pattern beyond 1"},
                   Field{"space", &Gradient::space, "", -kNoLimit, kNoLimit, "solid, or in u and v"}};
   }
   bool operator==(const Gradient&) const = default;

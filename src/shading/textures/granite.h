@@ -23,7 +23,7 @@ struct Granite : PatternColors, FractalSum {
     return Fields{PatternColors::fields(),
 
                   Field{"frequency", &Granite::frequency, "", -kNoLimit, kNoLimit, "grains in a step"},
-                  Field{"contrast", &Granite::contrast, "", 0, kNoLimit, "how far light and dark are apart"},
+                  Field{"contrast", &Granite::contrast, "", 0, kNoLimit, "contrast between light and dark"},
                   FractalSum::fields()};
   }
   bool operator==(const Granite&) const = default;
@@ -32,7 +32,7 @@ struct Granite : PatternColors, FractalSum {
     const PatternPlace p(place, TextureSpace::point);
     const Real value = FractalSum::at<3>({p.at.x * frequency, p.at.y * frequency, p.at.z * frequency},
                                          p.widest() * std::abs(frequency));
-    const Real mean = sum == SumKind::fractal ? 0 : 0.437;  // of turbulence in 3 dimensions
+    const Real mean = sum == SumKind::fractal ? 0 : 0.437;  // mean of turbulence in 3 dimensions
     return 0.5 + contrast * (value - mean);
   }
   Color at(const TexturePlace& place) const { return shade(pattern(place)); }

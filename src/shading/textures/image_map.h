@@ -2,40 +2,22 @@
 #pragma once
 
 #include <array>
-#include <memory>
-#include <string>
 #include <string_view>
 
-#include "base/error.h"
 #include "base/field.h"
 #include "image/mipmap.h"
+#include "shading/pixels.h"
 #include "shading/texture_place.h"
 
 namespace trace {
 
-/// A picture file that lies inside the file of a scene.
-struct InsideFile {
-  std::string name;   ///< that the scene's file gives it; may be empty
-  std::string bytes;  ///< of the picture file
-};
-
-/// The pixels of a file, behind a shared const handle; null until they are loaded (formats/textures.h).
-struct Pixels {
-  std::string file;                   ///< as the scene names it
-  std::shared_ptr<const MipMap> map;  ///< follows from the file
-  Place place;                        ///< where the scene names it
-  /// Null for a file of its own, and where the one inside cannot be read.
-  std::shared_ptr<const InsideFile> inside{};
-  bool operator==(const Pixels& other) const { return file == other.file; }
-};
-
-/// What of a texel counts.
+/// The channel of a texel that is used.
 enum class Channel { color, red, green, blue, alpha };
 constexpr std::array<std::string_view, 5> names(Channel) {
   return {"color", "red", "green", "blue", "alpha"};
 }
 
-/// What it tells where it is a material's `bump`.
+/// The meaning of the picture as a material's `bump`.
 enum class Relief {
   heights,
   normals,      ///< in the frame of tangents; green counts up, as in OpenGL and glTF
@@ -62,20 +44,19 @@ struct ImageMap {
         Field{"file", &ImageMap::file, "", -kNoLimit, kNoLimit, "the picture"},
         Field{"wrap_u", &ImageMap::wrapU, "", -kNoLimit, kNoLimit, "what lies beyond its sides"},
         Field{"wrap_v", &ImageMap::wrapV, "", -kNoLimit, kNoLimit, "what lies above and below it"},
-        Field{"filter", &ImageMap::filter, "", -kNoLimit, kNoLimit, "how texels are mixed"},
+        Field{"filter", &ImageMap::filter, "", -kNoLimit, kNoLimit, "texture filter"},
         Field{"centers_at_ends", &ImageMap::centersAtEnds, "", -kNoLimit, kNoLimit,
               "the outermost texels have their centres at 0 and 1, not their edges"},
         Field{"srgb", &ImageMap::srgb, "", -kNoLimit, kNoLimit,
-              "its numbers are sRGB and are made linear, before they are mixed; otherwise they are taken as "
-              "they are"},
-        Field{"channel", &ImageMap::channel, "", -kNoLimit, kNoLimit, "what of it counts"},
+              "its numbers are sRGB and are made linear before they are averaged; otherwise they are used "
+              "unchanged"},
+        Field{"channel", &ImageMap::channel, "", -kNoLimit, kNoLimit, "channel that is used"},
         Field{"relief", &ImageMap::relief, "", -kNoLimit, kNoLimit,
-              "what it tells as a bump: heights, or normals whose green counts up or down"},
+              "its meaning as a bump: heights, or normals whose green counts up or down"},
         Field{"second_uv", &ImageMap::secondUv, "", -kNoLimit, kNoLimit,
-              "it lies by the second texture coordinates of its mesh, `texture_uv2`, where that has some"},
-        Field{
-            "transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
-            "(a, b, c, d, e, f): the place (a u + b v + c, d u + e v + f) of the picture is seen at (u, v)"}};
+              "it uses the second texture coordinates of its mesh, `texture_uv2`, if there are some"},
+        Field{"transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
+              "(a, b, c, d, e, f): at (u, v) the picture is evaluated at (a u + b v + c, d u + e v + f)"}};
   }
   bool operator==(const ImageMap&) const = default;
 

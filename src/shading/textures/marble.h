@@ -25,8 +25,7 @@ struct Marble : PatternColors, FractalSum {
         PatternColors::fields(),
 
         Field{"frequency", &Marble::frequency, "", -kNoLimit, kNoLimit, "layers in a step along x"},
-        Field{"turbulence", &Marble::turbulence, "", -kNoLimit, kNoLimit,
-              "how many layers far they are bent"},
+        Field{"turbulence", &Marble::turbulence, "", -kNoLimit, kNoLimit, "how far they are bent, in layers"},
         Field{"grain", &Marble::grain, "", -kNoLimit, kNoLimit,
               "how fine the turbulence is along x, y and z"},
         Field{"wave", &Marble::wave, "", -kNoLimit, kNoLimit, "how a layer goes from a to b and back"},

@@ -14,9 +14,9 @@ struct Mix {
   Real amount = 0.5;
 
   static constexpr auto fields() {
-    return Fields{Field{"a", &Mix::a, "", 0, kNoLimit, "seen where amount is 0"},
-                  Field{"b", &Mix::b, "", 0, kNoLimit, "seen where amount is 1"},
-                  Field{"amount", &Mix::amount, "", 0, 1, "of b"}};
+    return Fields{Field{"a", &Mix::a, "", 0, kNoLimit, "used where amount is 0"},
+                  Field{"b", &Mix::b, "", 0, kNoLimit, "used where amount is 1"},
+                  Field{"amount", &Mix::amount, "", 0, 1, "fraction of b"}};
   }
   bool operator==(const Mix&) const = default;
 

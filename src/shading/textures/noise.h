@@ -19,16 +19,15 @@ struct Noise : PatternColors, FractalSum {
   Noise() { octaves = 1; }
 
   static constexpr auto fields() {
-    return Fields{
-        PatternColors::fields(),
-        FractalSum::fields(),
+    return Fields{PatternColors::fields(),
+                  FractalSum::fields(),
 
-        Field{"dimensions", &Noise::dimensions, "", 1, 4,
-              "1: changes along x; 2: x and y; 3; 4: with time too"},
-        Field{"time", &Noise::time, "", -kNoLimit, kNoLimit, "the fourth coordinate"},
-        Field{"period", &Noise::period, "", 0, 1e9,
-              "repeats after so many whole steps along x, y and z; 0: never. lacunarity must be whole"},
-        Field{"space", &Noise::space, "", -kNoLimit, kNoLimit, "solid, or in u and v"}};
+                  Field{"dimensions", &Noise::dimensions, "", 1, 4,
+                        "1: changes along x; 2: x and y; 3; 4: with time too"},
+                  Field{"time", &Noise::time, "", -kNoLimit, kNoLimit, "the fourth coordinate"},
+                  Field{"period", &Noise::period, "", 0, 1e9,
+                        "period in whole steps along x, y and z; 0: none. lacunarity must be whole"},
+                  Field{"space", &Noise::space, "", -kNoLimit, kNoLimit, "solid, or in u and v"}};
   }
   bool operator==(const Noise&) const = default;
 

@@ -1,4 +1,4 @@
-// What patterns share: the space they lie in, the colours of their numbers, and waves.
+// Parts common to patterns: the space they lie in, the colours of their numbers, and waves.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace trace {
 
-/// What a pattern lies in.
+/// The space of a pattern.
 enum class TextureSpace { point, uv };
 constexpr std::array<std::string_view, 2> names(TextureSpace) { return {"point", "uv"}; }
 
@@ -94,7 +94,7 @@ struct PatternColors {
         Field{"a", &PatternColors::a, "", 0, kNoLimit, "the colour where the pattern is 0"},
         Field{"b", &PatternColors::b, "", 0, kNoLimit, "the colour where it is 1"},
         Field{"ramp", &PatternColors::ramp, "", -kNoLimit, kNoLimit,
-              "((position, red, green, blue), ...): colours at rising positions, in place of a and b"}};
+              "((position, red, green, blue), ...): colours at increasing positions, in place of a and b"}};
   }
   bool operator==(const PatternColors&) const = default;
 

@@ -7,12 +7,12 @@ namespace trace {
 
 struct Ramp : PatternColors {
   static constexpr std::string_view kKeyword = "ramp";
-  static constexpr std::string_view kHelp = "gives the luminance of another texture, its value, colours";
+  static constexpr std::string_view kHelp = "maps the luminance of another texture, its value, to colours";
 
   Real value = 0;
 
   static constexpr auto fields() {
-    return Fields{Field{"value", &Ramp::value, "", -kNoLimit, kNoLimit, "a number, as a rule a texture"},
+    return Fields{Field{"value", &Ramp::value, "", -kNoLimit, kNoLimit, "a number, usually a texture"},
                   PatternColors::fields()};
   }
   bool operator==(const Ramp&) const = default;

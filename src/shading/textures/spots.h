@@ -18,8 +18,9 @@ struct Spots {
     return Fields{
         Field{"a", &Spots::a, "", 0, kNoLimit, "the colour of the spots"},
         Field{"b", &Spots::b, "", 0, kNoLimit, "the colour between them"},
-        Field{"radius", &Spots::radius, "", 0, 0.5, "of a spot"},
-        Field{"jitter", &Spots::jitter, "", 0, 1, "how far they leave the middle, as their room allows"},
+        Field{"radius", &Spots::radius, "", 0, 0.5, "radius of a spot"},
+        Field{"jitter", &Spots::jitter, "", 0, 1,
+              "largest random offset from the middle, as far as there is room"},
         Field{"softness", &Spots::softness, "", 0, 1, "the width of their edge"},
         Field{"space", &Spots::space, "", -kNoLimit, kNoLimit, "balls, or discs in u and v"},
         Field{"seed", &Spots::seed, "", -kNoLimit, kNoLimit, "chooses among patterns of the same kind"}};

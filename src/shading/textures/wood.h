@@ -24,10 +24,10 @@ struct Wood : PatternColors, FractalSum {
     return Fields{
         PatternColors::fields(),
         Field{"frequency", &Wood::frequency, "", -kNoLimit, kNoLimit, "rings in a step from the axis"},
-        Field{"turbulence", &Wood::turbulence, "", -kNoLimit, kNoLimit, "how many rings far they are bent"},
+        Field{"turbulence", &Wood::turbulence, "", -kNoLimit, kNoLimit, "how far they are bent, in rings"},
         Field{"fibres", &Wood::fibres, "", 0, 1, "how strong they are"},
         Field{"wave", &Wood::wave, "", -kNoLimit, kNoLimit,
-              "how a ring goes from a to b; saw: slowly, and back at once"},
+              "transition of a ring from a to b; saw: slowly, and back at once"},
         FractalSum::fields()};
   }
   bool operator==(const Wood&) const = default;

@@ -1,0 +1,53 @@
+# Run by CPack between installing the files of the packages and packing them: what Debian wants beside them.
+# A package is the folder CPACK_TEMPORARY_INSTALL_DIRECTORY/COMPONENT.
+set(debian ${CPACK_TRACE_SOURCE}/packaging/debian)
+
+function(compressed FILE)  # without a date inside, so that the same sources make the same package
+  execute_process(COMMAND gzip -9nf ${FILE} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+# Sources of others in the programs, which are headers or were linked in, with their licences.
+set(withinProgram libcli11-dev libstb-dev nlohmann-json3-dev libtinyobjloader-dev libtinygltf-dev)
+set(withinStudio ${withinProgram} libimgui-dev)
+
+foreach(component ${CPACK_COMPONENTS_ALL})
+  string(TOUPPER ${component} upper)
+  set(name ${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+  set(root ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/${component}/usr)
+  set(doc ${root}/share/doc/${name})
+  file(MAKE_DIRECTORY ${doc})
+  file(COPY ${debian}/copyright DESTINATION ${doc} FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  file(COPY ${debian}/changelog DESTINATION ${doc} FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  compressed(${doc}/changelog)
+  file(GLOB pages ${root}/share/man/man*/*.[1-9])
+  foreach(page ${pages})
+    compressed(${page})
+  endforeach()
+  if("${component}" STREQUAL "program")
+    set(within ${withinProgram})
+  elseif("${component}" STREQUAL "studio")
+    set(within ${withinStudio})
+  else()
+    set(within "")
+  endif()
+  foreach(package ${within})
+    file(COPY_FILE /usr/share/doc/${package}/copyright ${doc}/${package}.copyright)
+    file(CHMOD ${doc}/${package}.copyright PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  endforeach()
+  file(GLOB programs ${root}/libexec/trace-ray/*)
+  foreach(program ${programs})
+    execute_process(COMMAND strip --strip-unneeded --remove-section=.comment --remove-section=.note ${program}
+                    COMMAND_ERROR_IS_FATAL ANY)
+  endforeach()
+  # Debian has one place for completions of its packages' programs, and for licences.
+  if(EXISTS ${root}/share/zsh/site-functions)
+    file(RENAME ${root}/share/zsh/site-functions ${root}/share/zsh/vendor-completions)
+  endif()
+  if("${component}" STREQUAL "doc")
+    set(pages ${root}/share/doc/trace-ray)
+    file(REMOVE ${pages}/LICENSE)
+    file(READ ${pages}/README.md text)
+    string(REPLACE "[LICENSE](LICENSE)" "[copyright](copyright)" text "${text}")
+    file(WRITE ${pages}/README.md "${text}")
+  endif()
+endforeach()
