@@ -131,7 +131,7 @@ def function(kind, margin=""):
             arguments.append(f"{name}: {types.get(name) or MORE[name]} = ...")
     static = "" if not margin else margin + "@staticmethod\n"
     return (f'{static}{margin}def {kind.keyword}({", ".join(arguments)}) -> Node:\n'
-            f'{margin}    """{indented(tr.docstring(kind), margin + "    ")}"""\n')
+            f'{margin}    """{indented(tr.docstring(kind), margin + "    ")}\n{margin}    """\n')
 
 
 def scene_class():
