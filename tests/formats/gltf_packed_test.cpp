@@ -395,7 +395,7 @@ TEST(GltfMeshopt, DamageCostsTheMeshesThatUseItAndIsTold) {
     alone.root["scenes"][0]["nodes"] = {0, 1};
     const ReadFile read = readPacked(withFallback(alone).text());
     ASSERT_EQ(read.scene.objects.size(), 1u);
-    EXPECT_EQ(patchOf(read).triangles.size(), 3u);
+    EXPECT_EQ(patchOf(read).triangles.size(), 2u) << "one of the three is no more than an edge";
     EXPECT_NE(read.told.find(row.told), read.told.npos) << read.told;
   }
 }
@@ -433,8 +433,8 @@ TEST(GltfMeshopt, LostTurnsOfCopiesCostTheCopies) {
 TEST(GltfMeshopt, TheSameBytesAreNotDecompressedAgainAndAgain) {
   Square square = meshoptPatch(Patch(40), "TRIANGLES", 4);
   json& views = square.root["bufferViews"];
-  const json view = views[0];
-  for (int i = 0; i < 3000; ++i) views.push_back(view);
+  const json view = views.back();
+  for (int i = 0; i < 6000; ++i) views.push_back(view);
   const std::string error = errorOf(square.text());
   EXPECT_NE(error.find("compressed data are used too often"), error.npos) << error;
 }
