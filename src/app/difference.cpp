@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "image/codec.h"
 #include "image/flip.h"
+#include "image/picture_name.h"
 
 namespace trace {
 namespace {
@@ -34,8 +35,8 @@ constexpr std::array kMetrics{
 
 LoadedPicture loadPicture(const std::string& path) {
   const Work work("reading a picture");
-  const std::string bytes = readFile(path);
-  return {decodePicture(bytes, path), !pictureFormatOf(bytes, path).keepsBright};
+  const std::string bytes = readFile(pictureName(path).file);
+  return {decodePicture(bytes, path), !pictureFormatOf(bytes, path).keepsBright, pictureRemark(bytes, path)};
 }
 
 PictureDifference difference(LoadedPicture reference, LoadedPicture test, const DifferenceOptions& options) {

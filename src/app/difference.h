@@ -15,9 +15,10 @@ namespace trace {
 /// A picture as it came from a file, or from a render that was given levels.
 struct LoadedPicture {
   Picture picture;
-  bool levels = true;  ///< 8 bits a channel
+  bool levels = true;    ///< 8 bits a channel
+  std::string remark{};  ///< a warning, of what is not shown; may be empty
 };
-/// Throws Error(Fault::io), Error(Fault::limit).
+/// `path` may choose a layer (image/picture_name.h). Throws Error(Fault::io), Error(Fault::limit).
 LoadedPicture loadPicture(const std::string& path);
 
 /// Numbers are in levels, 0 to 255, when both pictures have 8 bits a channel, else in linear values.

@@ -17,6 +17,7 @@
 #include "cli/memory_limit.h"
 #include "cli/overseer.h"
 #include "cli/terminal.h"
+#include "image/picture_name.h"
 
 namespace trace::cli {
 namespace {
@@ -162,7 +163,7 @@ Error outOfMemory(const std::string& doing, const std::string& file) {
 }
 
 void checkDistinct(const std::string& read, const std::string& written) {
-  if (!written.empty() && sameFile(read, written))
+  if (!written.empty() && sameFile(pictureName(read).file, written))
     throw Error(Fault::usage, "\"" + read + "\" and \"" + written + "\" are the same file",
                 "what is read is not written over; name another file");
 }

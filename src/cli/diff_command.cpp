@@ -136,6 +136,10 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
   for (const std::string& file : arguments.files) checkDistinct(file, arguments.output);
   if (!arguments.output.empty()) checkWritable(arguments.output);
   LoadedPicture reference = loadPicture(arguments.files[0]), test = loadPicture(arguments.files[1]);
+  for (const auto& [file, loaded] :
+       {std::pair{&arguments.files[0], &reference}, {&arguments.files[1], &test}})
+    if (!loaded->remark.empty())
+      console.line(LogLevel::warning, "warning: " + printable(*file) + ": " + printable(loaded->remark));
   const Work work("comparing the pictures");
   const PictureDifference d =
       difference(std::move(reference), std::move(test), {arguments.tolerance, arguments.pixelsPerDegree});

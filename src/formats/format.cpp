@@ -51,7 +51,7 @@ constexpr std::array kFormats{
                 .write = writeComposer},
     SceneFormat{.name = "inventor",
                 .suffixes = kInventor,
-                .help = "Open Inventor 2.x, VRML 1.0 and VRML97, all as text",
+                .help = "Open Inventor 2.x, text and binary, VRML 1.0 and VRML97",
                 .recognises = recognisesInventor,
                 .read = readInventor,
                 .write = writeInventor},

@@ -14,7 +14,7 @@ constexpr std::string_view kActs = "acts by a ROUTE, which is reported", kSeen =
                            kPolygons = "polygons of up to 64 corners keep their dents anyway";
 
 constexpr std::array kInventorRows{
-    KnownField{"#Inventor binary", kRefused, ""},
+    KnownField{"#Inventor binary", kShown, "versions 2.0 and 2.1"},
     KnownField{"DEF and USE", kShown, "the same node again"},
     KnownField{"field value ~", kIdle, "the default holds, as the mark says"},
     KnownField{"= Engine", kReported, "the field keeps its value"},

@@ -13,6 +13,7 @@
 #include "geometry/field_value.h"
 #include "geometry/shapes/csg_tree.h"
 #include "image/codec.h"
+#include "image/picture_name.h"
 
 namespace trace {
 namespace {
@@ -131,7 +132,7 @@ SeenFrom seenFrom(const Scene& scene, const std::string& file, Messages& message
   const auto placed = [&](const std::string& name) {
     if (same || name.empty() || fs::path(name).is_absolute()) return name;
     const fs::path path = fs::absolute(pictureFile(scene.file, name), error).lexically_normal();
-    return fs::exists(path, error) ? path.lexically_relative(target).string() : name;
+    return fs::exists(path, error) ? pictureName(name).of(path.lexically_relative(target).string()) : name;
   };
   const auto see = [&](Pixels& pixels) {
     if (pixels.inside) {

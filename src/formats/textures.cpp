@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/read_scope.h"
 #include "image/codec.h"
+#include "image/picture_name.h"
 #include "scene/input_files.h"
 
 namespace trace {
@@ -27,9 +28,9 @@ struct Loaded {
 
 void load(const std::string& path, Loaded& loaded) {
   try {
-    const std::string bytes = readBeside("", path, loaded.inputs);
+    const std::string bytes = readBeside("", pictureName(path).file, loaded.inputs);
     loaded.map = MipMap::decode(bytes, path);
-    if (const std::string remark = pictureRemark(bytes); !remark.empty())
+    if (const std::string remark = pictureRemark(bytes, path); !remark.empty())
       loaded.remark += (loaded.remark.empty() ? "\"" + loaded.name + "\": " : "; ") + remark;
   } catch (const ReadDenied& denied) {
     denied.at(loaded.place);
@@ -54,7 +55,7 @@ std::shared_ptr<const MipMap> missingPicture() {
 }
 
 std::string pictureFile(const std::string& from, const std::string& name) {
-  return namedFile(from, name).path;
+  return namedFile(from, pictureName(name).file).path;
 }
 
 void loadTextures(Scene& scene, Messages& messages) {
@@ -62,8 +63,9 @@ void loadTextures(Scene& scene, Messages& messages) {
   std::vector<std::pair<const std::string, Loaded>*> files;  // in the order met
   changePixels(scene, [&](Pixels& pixels) {
     if (pixels.map || pixels.file.empty()) return;
-    const NamedFile named = namedFile(scene.file, pixels.file);
-    const auto [found, fresh] = byPath.try_emplace(named.path);
+    const PictureName name = pictureName(pixels.file);
+    const NamedFile named = namedFile(scene.file, name.file);
+    const auto [found, fresh] = byPath.try_emplace(name.of(named.path));
     if (!fresh) return;
     found->second.name = pixels.file;
     found->second.remark = named.remark;
@@ -93,7 +95,7 @@ void loadTextures(Scene& scene, Messages& messages) {
   unread.reportUnread(messages, reason);
   changePixels(scene, [&](Pixels& pixels) {
     if (pixels.map || pixels.file.empty()) return;
-    pixels.map = byPath.at(pictureFile(scene.file, pixels.file)).map;
+    pixels.map = byPath.at(pictureName(pixels.file).of(pictureFile(scene.file, pixels.file))).map;
   });
 }
 

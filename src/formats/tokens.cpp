@@ -152,6 +152,7 @@ void Tokens::expected(std::string_view what, std::string_view expected, std::str
 }
 
 Place Tokens::place(const Token& token) const {
+  if (!rules_.hasPlaces) return {.file = file_};
   const auto after = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), token.offset);
   const std::size_t start = *(after - 1);
   std::size_t end = after == lineStarts_.end() ? source_.size() : *after - 1;

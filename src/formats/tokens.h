@@ -34,6 +34,7 @@ struct TokenRules {
   char comment = 0;        ///< begins a comment that ends with the line; 0: there are none
   bool commasAreBlank = false;
   bool stringEscapes = false;  ///< \" in a string does not end it
+  bool hasPlaces = true;       ///< false for a text that nobody sees: places are the file as a whole
 };
 
 class Tokens {

@@ -18,6 +18,7 @@
 #include "base/match.h"
 #include "base/text.h"
 #include "image/codec_parts.h"
+#include "image/picture_name.h"
 
 namespace trace {
 
@@ -116,7 +117,7 @@ constexpr PictureFormat kFormats[] = {
     {"HDR", kHdr, "Radiance RGBE, keeps values above 1 to one part in 256 of the brightest channel", true,
      false, INT_MAX, kMostStbPixels, encodeHdr, isHdr, decodeHdr, commentLines, hdrRemark},
     {"EXR", kExr, "32-bit floats, keeps every value; carries the render's settings", true, true, 1 << 24,
-     kAnyNumber, encodeExr, isExr, decodeExr, exrMetadata, exrRemark},
+     kAnyNumber, encodeExr, isExr, decodeExr, exrMetadata, exrRemark, decodeExrLayer, exrLayerRemark},
     {"WebP", kWebp, "8 bits a channel, with or without loss; read, not written", false, true, kMostWebpSide,
      kAnyNumber, nullptr, isWebp, decodeWebp, noMetadata, webpRemark},
     {"TGA", kTga, "8 bits a channel, run-length coded", false, true, 65535, kMostStbPixels, encodeTga, isTga,
@@ -170,6 +171,14 @@ std::string_view foreignKind(std::string_view bytes) {
   return {};
 }
 
+Raster decodedBy(const PictureFormat& format, std::string_view bytes, const std::string& name,
+                 const PictureLimits& limits) {
+  const std::string layer = pictureName(name).layer;
+  if (layer.empty()) return format.decode(bytes, limits);
+  if (!format.decodeLayer) throw std::runtime_error("only EXR files have layers");
+  return format.decodeLayer(bytes, limits, layer);
+}
+
 /// Calls use(format) with the row the bytes belong to; any failure becomes an Error that names the file.
 template <class Use>
 decltype(auto) withFormatOf(std::string_view bytes, const std::string& name, Use use) {
@@ -199,7 +208,7 @@ decltype(auto) withFormatOf(std::string_view bytes, const std::string& name, Use
 std::span<const PictureFormat> pictureFormats() { return kFormats; }
 
 const PictureFormat* pictureFormatNamed(std::string_view path) {
-  const std::string suffix = suffixOf(path);
+  const std::string suffix = suffixOf(pictureName(std::string(path)).file);
   for (const PictureFormat& format : kFormats)
     for (std::string_view candidate : format.suffixes)
       if (candidate == suffix) return &format;
@@ -207,15 +216,17 @@ const PictureFormat* pictureFormatNamed(std::string_view path) {
 }
 
 const PictureFormat& pictureFormatFor(std::string_view path) {
+  const std::string layer = pictureName(std::string(path)).layer;
   const PictureFormat* named = pictureFormatNamed(path);
-  if (named && named->encode) return *named;
+  if (named && named->encode && layer.empty()) return *named;
   std::vector<std::string_view> written;
   for (const PictureFormat& format : kFormats)
     if (format.encode) written.insert(written.end(), format.suffixes.begin(), format.suffixes.end());
   throw Error(Fault::usage,
               "the name of a picture ends in " + listed(written) + ", found \"" + std::string(path) + "\"",
-              named ? std::string(named->name) + " pictures are read, not written"
-                    : didYouMean(suffixOf(path), written));
+              !layer.empty() ? "layers are read, not written"
+              : named        ? std::string(named->name) + " pictures are read, not written"
+                             : didYouMean(suffixOf(path), written));
 }
 
 void checkEncodable(const PictureFormat& format, int width, int height) {
@@ -263,16 +274,21 @@ const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& 
 }
 
 Picture decodePicture(std::string_view bytes, const std::string& name, const PictureLimits& limits) {
-  return withFormatOf(bytes, name,
-                      [&](const PictureFormat& format) { return toPicture(format.decode(bytes, limits)); });
+  return withFormatOf(bytes, name, [&](const PictureFormat& format) {
+    return toPicture(decodedBy(format, bytes, name, limits));
+  });
 }
 
 Raster decodeRaster(std::string_view bytes, const std::string& name, const PictureLimits& limits) {
-  return withFormatOf(bytes, name, [&](const PictureFormat& format) { return format.decode(bytes, limits); });
+  return withFormatOf(bytes, name,
+                      [&](const PictureFormat& format) { return decodedBy(format, bytes, name, limits); });
 }
 
-std::string pictureRemark(std::string_view bytes) {
-  return withFormatOf(bytes, "", [&](const PictureFormat& format) { return format.remark(bytes); });
+std::string pictureRemark(std::string_view bytes, const std::string& name) {
+  const std::string layer = pictureName(name).layer;
+  return withFormatOf(bytes, name, [&](const PictureFormat& format) {
+    return layer.empty() || !format.layerRemark ? format.remark(bytes) : format.layerRemark(bytes, layer);
+  });
 }
 
 Picture toPicture(const Raster& raster) {
@@ -290,7 +306,7 @@ Picture toPicture(const Raster& raster) {
 }
 
 Picture readPicture(const std::string& path, const PictureLimits& limits) {
-  return decodePicture(readFile(path), path, limits);
+  return decodePicture(readFile(pictureName(path).file), path, limits);
 }
 
 Metadata readMetadata(const std::string& path) {

@@ -46,11 +46,15 @@ struct PictureFormat {
   /// What of a file that can be decoded is not as it should be, or is not shown; "" if there is nothing to
   /// say.
   std::string (*remark)(std::string_view bytes);
+  /// The same of a layer, by its name; null for formats without layers.
+  Raster (*decodeLayer)(std::string_view bytes, const PictureLimits&, const std::string& layer) = nullptr;
+  std::string (*layerRemark)(std::string_view bytes, const std::string& layer) = nullptr;
 };
 
 std::span<const PictureFormat> pictureFormats();
 
-/// By the suffix of the path, in any case; null if no format has it.
+/// By the suffix of the path, in any case; null if no format has it. The name may choose a layer
+/// (image/picture_name.h).
 const PictureFormat* pictureFormatNamed(std::string_view path);
 
 /// The format in which a file of that name is written. Throws Error(Fault::usage) that names all suffixes of
@@ -76,18 +80,19 @@ void writePicture(const std::string& path, const Picture& picture, Rounding roun
 /// The row that the bytes of a picture file belong to. Throws as decodePicture().
 const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& name);
 
-/// The picture in the bytes; transparency is dropped. `name` is for messages. Throws Error(Fault::io) on
-/// anything that is not a whole, sound file of a known format, Error(Fault::limit) for a picture larger than
-/// the limits, and when memory is short.
+/// The picture in the bytes; transparency is dropped. `name` is for messages, and may choose a layer
+/// (image/picture_name.h). Throws Error(Fault::io) on anything that is not a whole, sound file of a known
+/// format, or has no such layer, Error(Fault::limit) for a picture larger than the limits, and when memory is
+/// short.
 Picture decodePicture(std::string_view bytes, const std::string& name, const PictureLimits& limits = {});
 
 /// The same as the file has it, with transparency. Throws as decodePicture().
 Raster decodeRaster(std::string_view bytes, const std::string& name, const PictureLimits& limits = {});
 
 /// A warning about a picture that decodeRaster() has read, such as of layers that are not shown; "" for none.
-std::string pictureRemark(std::string_view bytes);
+std::string pictureRemark(std::string_view bytes, const std::string& name);
 
-/// decodePicture() of a file. Throws Error.
+/// decodePicture() of a file, whose name may choose a layer. Throws Error.
 Picture readPicture(const std::string& path, const PictureLimits& limits = {});
 
 /// The words stored with a picture file, in their order; empty where its format has none. Throws Error.

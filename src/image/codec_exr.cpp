@@ -1,7 +1,7 @@
 // EXR through OpenEXR, the only file that sees it; in memory, so that all writing goes through base/file.h.
-// One station of codec.cpp's table. Written: channels R, G, B as 32-bit floats, zip-compressed. Read: R, G,
-// B, luminance and chroma, or a grey, and A, of any sample type and any primaries; the display window is the
-// picture, in which colours are multiplied by A. Source: "OpenEXR File Layout" and "Reading and Writing
+// One station of codec.cpp's table. Written: channels R, G, B as 32-bit floats, zip-compressed. Read: one
+// layer (exr_layers.h) of any sample type and any primaries; the display window is the picture, in which
+// colours are multiplied by A. Source: "OpenEXR File Layout" and "Reading and Writing
 // OpenEXR Image Files" (openexr.com). No threads are started.
 #include <algorithm>
 #include <cmath>
@@ -16,6 +16,7 @@
 #include "image/codec.h"
 #include "image/codec_parts.h"
 #include "image/exr_chunks.h"
+#include "image/exr_layers.h"
 
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
@@ -29,6 +30,8 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputFile.h>
+#include <ImfInputPart.h>
+#include <ImfMultiPartInputFile.h>
 #include <ImfOutputFile.h>
 #include <ImfPartType.h>
 #include <ImfRgbaYca.h>
@@ -81,104 +84,56 @@ class MemoryInput : public Imf::IStream {
   uint64_t place_ = 0;
 };
 
-/// The header alone, before OpenEXR allocates what it asks for. Only the first of several parts counts.
-Imf::Header headerOf(std::string_view bytes) {
+/// The headers alone, before OpenEXR allocates what they ask for.
+std::vector<Imf::Header> headersOf(std::string_view bytes, bool several) {
+  constexpr size_t kMostParts = 1000;
   MemoryInput input(bytes);
   char start[kExrMagicAndVersion];
   input.read(start, kExrMagicAndVersion);
   int version = 0;
   for (int i = 3; i >= 0; --i) version = version << 8 | static_cast<unsigned char>(start[4 + i]);
-  Imf::Header header;
-  header.readFrom(input, version);
-  return header;
+  std::vector<Imf::Header> headers;
+  do {
+    Imf::Header header;
+    header.readFrom(input, version);
+    if (several && header.readsNothing()) break;  // behind the last
+    headers.push_back(header);
+    if (headers.size() > kMostParts) throw std::runtime_error("more than 1000 parts are not read");
+  } while (several);
+  return headers;
+}
+
+std::vector<ExrPart> partsOf(const std::vector<Imf::Header>& headers) {
+  std::vector<ExrPart> parts;
+  for (const Imf::Header& header : headers) {
+    ExrPart& part = parts.emplace_back();
+    if (header.hasName() && headers.size() > 1) part.name = header.name();
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
+      part.channels.emplace_back(c.name());
+  }
+  return parts;
 }
 
 /// Width and height of a window; throws if they are absurd.
 struct Extent {
   int width, height;
 };
-Extent checkedExtent(const Imath::Box2i& window, size_t fileBytes, const PictureLimits& limits) {
+Extent extentOf(const Imath::Box2i& window) {
   constexpr int kFarthest = 1 << 24;
   for (int corner : {window.min.x, window.min.y, window.max.x, window.max.y})
     if (corner < -kFarthest || corner > kFarthest)
       throw std::runtime_error("a window lies absurdly far away");
-  const Extent extent{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1};
+  return {window.max.x - window.min.x + 1, window.max.y - window.min.y + 1};
+}
+Extent checkedExtent(const Imath::Box2i& window, size_t fileBytes, const PictureLimits& limits) {
+  const Extent extent = extentOf(window);
   checkClaimedSize(extent.width, extent.height, fileBytes, kPackedPixelsPerByte, limits);
   return extent;
 }
 
-/// Which channels of a file are the picture.
-struct ShownChannels {
-  std::vector<std::string> shown;  ///< red, green, blue or a grey, then alpha; "" for one that is black
-  bool isChroma = false;           ///< Y, RY and BY stand for red, green and blue
-  std::string remark;              ///< of what is not shown
-};
-
-/// Channels of the layer that are no part of the picture, such as the depth.
-std::string unshown(const std::vector<std::string>& names, const ShownChannels& found,
-                    const std::string& layer) {
-  constexpr size_t kMostNamed = 5;
-  std::string list;
-  size_t count = 0;
-  for (const std::string& name : names) {
-    const bool isPart = name.starts_with(layer) && name.find('.', layer.size()) == std::string::npos;
-    const bool isShown =
-        std::find(found.shown.begin(), found.shown.end(), name) != found.shown.end() ||
-        (found.isChroma && (name == layer + "Y" || name == layer + "RY" || name == layer + "BY"));
-    if (!isPart || isShown || ++count > kMostNamed) continue;
-    list += (list.empty() ? "" : ", ") + name;
-  }
-  return list.empty() ? ""
-                      : "channels that are not shown: " + list + (count > kMostNamed ? " and others" : "");
-}
-
-/// R, G and B, or Y with RY and BY, or Y; or those of the first layer; or the first channel, as a grey.
-ShownChannels shownChannels(const Imf::ChannelList& channels) {
-  std::vector<std::string> names, layers{""};
-  for (auto c = channels.begin(); c != channels.end(); ++c) {
-    names.emplace_back(c.name());
-    const size_t dot = names.back().rfind('.');
-    if (dot == std::string::npos) continue;
-    if (const std::string layer = names.back().substr(0, dot + 1); layer != layers.back())
-      layers.push_back(layer);
-  }
-  if (names.empty()) throw std::runtime_error("it has no channel");
-  const auto has = [&](const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
-  const auto isPart = [](const std::string& name, const std::string& layer) {
-    return name.starts_with(layer) && name.find('.', layer.size()) == std::string::npos;
-  };
-  ShownChannels found;
-  for (const std::string& layer : layers) {
-    const int colors = has(layer + "R") + has(layer + "G") + has(layer + "B");
-    found.isChroma = colors == 0 && has(layer + "Y") && has(layer + "RY") && has(layer + "BY");
-    if (colors >= 2 || found.isChroma)
-      for (const char* name : {"R", "G", "B"})
-        found.shown.push_back(found.isChroma || has(layer + name) ? layer + name : "");
-    else if (has(layer + "Y"))
-      found.shown.push_back(layer + "Y");
-    if (found.shown.empty()) continue;
-    if (has(layer + "A")) found.shown.push_back(layer + "A");
-    if (!layer.empty())
-      found.remark = "the layer \"" + layer.substr(0, layer.size() - 1) + "\" is shown, and no other";
-    else if (const auto others = std::count_if(names.begin(), names.end(),
-                                               [&](const std::string& name) { return !isPart(name, ""); });
-             others > 0)
-      found.remark = "its layers are not shown";
-    remark(found.remark, unshown(names, found, layer));
-    return found;
-  }
-  const auto first = std::find_if(names.begin(), names.end(), [](const std::string& n) { return n != "A"; });
-  found.shown.push_back(first == names.end() ? names[0] : *first);
-  if (has("A") && found.shown[0] != "A") found.shown.emplace_back("A");
-  if (names.size() > found.shown.size())
-    found.remark = "of its channels only \"" + found.shown[0] + "\" is shown, as a grey";
-  return found;
-}
-
 /// The channels side by side, of the pixels that the file stores.
-std::vector<float> readValues(Imf::InputFile& input, const Extent& stored, const ShownChannels& names) {
+template <class Input>
+std::vector<float> readValues(Input& input, const Extent& stored, const ShownChannels& names) {
   const Imath::Box2i& data = input.header().dataWindow();
   const size_t channels = names.shown.size();
   std::vector<float> values(channels * static_cast<size_t>(stored.width) *
@@ -218,7 +173,8 @@ struct SparseChannel {
 };
 
 /// Colours of a luminance Y and RY = (R - Y) / Y, BY = (B - Y) / Y.
-std::vector<float> readChroma(Imf::InputFile& input, const Extent& stored, const ShownChannels& names) {
+template <class Input>
+std::vector<float> readChroma(Input& input, const Extent& stored, const ShownChannels& names) {
   const Imath::Box2i& data = input.header().dataWindow();
   const std::string layer = names.shown[0].substr(0, names.shown[0].size() - 1);
   const bool alpha = names.shown.size() > 3;
@@ -257,6 +213,11 @@ std::vector<float> readChroma(Imf::InputFile& input, const Extent& stored, const
   return values;
 }
 
+template <class Input>
+std::vector<float> readPart(Input& input, const Extent& stored, const ShownChannels& names) {
+  return names.isChroma ? readChroma(input, stored, names) : readValues(input, stored, names);
+}
+
 /// Colours of other primaries than Rec. 709's, if the file names them, become those.
 void toRec709(const Imf::Header& header, size_t channels, std::vector<float>& values) {
   if (channels < 3 || !Imf::hasChromaticities(header)) return;
@@ -277,8 +238,8 @@ void toRec709(const Imf::Header& header, size_t channels, std::vector<float>& va
   }
 }
 
-/// The layout of the part that is read.
-ExrLayout layoutOf(const Imf::Header& header, bool tiled) {
+/// The layout of a part.
+ExrLayout layoutOf(const Imf::Header& header, const ExrHeaders& headers) {
   ExrLayout layout;
   const Imath::Box2i& data = header.dataWindow();
   layout.minX = data.min.x;
@@ -288,13 +249,20 @@ ExrLayout layoutOf(const Imf::Header& header, bool tiled) {
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
     layout.channels.push_back(
         {c.channel().type == Imf::HALF ? 2 : 4, c.channel().xSampling, c.channel().ySampling});
-  if (tiled) {
+  const Extent extent = extentOf(data);
+  if (extent.width < 1 || extent.height < 1) throw std::runtime_error("a part has no pixels");
+  const bool isTiled = header.hasTileDescription() && (headers.tiled || headers.several);
+  if (isTiled) {
     constexpr unsigned kLargestTile = 1 << 16;
     const Imf::TileDescription& tile = header.tileDescription();
     if (tile.xSize < 1 || tile.ySize < 1 || tile.xSize > kLargestTile || tile.ySize > kLargestTile)
       throw std::runtime_error("tiles of 1 to 65536 pixels a side were expected");
     layout.tileWidth = static_cast<int>(tile.xSize);
     layout.tileHeight = static_cast<int>(tile.ySize);
+    layout.levels = tile.mode == Imf::MIPMAP_LEVELS   ? ExrLayout::Levels::mipmap
+                    : tile.mode == Imf::RIPMAP_LEVELS ? ExrLayout::Levels::ripmap
+                                                      : ExrLayout::Levels::one;
+    layout.roundsUp = tile.roundingMode == Imf::ROUND_UP;
   }
   using Packing = ExrLayout::Packing;
   switch (header.compression()) {
@@ -349,22 +317,34 @@ std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata
 }
 
 Raster decodeExr(std::string_view bytes, const PictureLimits& limits) {
+  return decodeExrLayer(bytes, limits, "");
+}
+
+Raster decodeExrLayer(std::string_view bytes, const PictureLimits& limits, const std::string& layer) {
   const ExrHeaders headers = exrHeaders(bytes);
-  const Imf::Header header = headerOf(bytes);
+  const std::vector<Imf::Header> all = headersOf(bytes, headers.several);
+  const ShownChannels names = shownChannels(partsOf(all), layer);
+  const Imf::Header& header = all[names.part];
   const Imath::Box2i &data = header.dataWindow(), &display = header.displayWindow();
   const Extent stored = checkedExtent(data, bytes.size(), limits);
   const Extent shown = checkedExtent(display, bytes.size(), limits);
-  const bool tiled = header.hasTileDescription() && (headers.tiled || headers.several);
-  checkExrBlocks(bytes, headers, layoutOf(header, tiled));
-
   if (header.hasType() && Imf::isDeepData(header.type()))
     throw std::runtime_error("deep pictures, of several samples a pixel, are not read");
+  std::vector<ExrLayout> layouts;
+  for (size_t part = 0; part <= names.part; ++part) layouts.push_back(layoutOf(all[part], headers));
+  checkExrBlocks(bytes, headers, layouts);
+
   MemoryInput stream(bytes);
-  Imf::InputFile input(stream, kNoThreads);
-  const ShownChannels names = shownChannels(input.header().channels());
+  std::vector<float> values;
+  if (headers.several) {
+    Imf::MultiPartInputFile file(stream, kNoThreads);
+    Imf::InputPart input(file, static_cast<int>(names.part));
+    values = readPart(input, stored, names);
+  } else {
+    Imf::InputFile input(stream, kNoThreads);
+    values = readPart(input, stored, names);
+  }
   const size_t channels = names.shown.size();
-  std::vector<float> values =
-      names.isChroma ? readChroma(input, stored, names) : readValues(input, stored, names);
   toRec709(header, channels, values);
 
   Raster raster(shown.width, shown.height, static_cast<int>(channels), 1);
@@ -386,25 +366,30 @@ Raster decodeExr(std::string_view bytes, const PictureLimits& limits) {
   return raster;
 }
 
-std::string exrRemark(std::string_view bytes) {
+std::string exrRemark(std::string_view bytes) { return exrLayerRemark(bytes, ""); }
+
+std::string exrLayerRemark(std::string_view bytes, const std::string& layer) {
   const ExrHeaders headers = exrHeaders(bytes);
-  const Imf::Header header = headerOf(bytes);
-  std::string all = shownChannels(header.channels()).remark;
-  if (headers.several) remark(all, "only the first of its parts is shown");
+  const std::vector<Imf::Header> all = headersOf(bytes, headers.several);
+  const ShownChannels names = shownChannels(partsOf(all), layer);
+  const Imf::Header& header = all[names.part];
+  std::string text = names.remark;
   constexpr float kClose = 1e-4f;
   if (const float aspect = header.pixelAspectRatio(); std::abs(aspect - 1) > kClose)
-    remark(all, "its pixels are not square, but shown as squares");
+    remark(text, "its pixels are not square, but shown as squares");
   if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
-    remark(all, "the six sides of its cube are shown one below the other");
-  if (Imf::hasAdoptedNeutral(header)) remark(all, "its adopted white is not taken into account");
-  if (Imf::hasWhiteLuminance(header)) remark(all, "the luminance of its white is not taken into account");
-  if (Imf::hasWrapmodes(header)) remark(all, "its wrap modes are not taken into account");
-  return all;
+    remark(text, "the six sides of its cube are shown one below the other");
+  if (Imf::hasAdoptedNeutral(header)) remark(text, "its adopted white is not taken into account");
+  if (Imf::hasWhiteLuminance(header)) remark(text, "the luminance of its white is not taken into account");
+  if (Imf::hasWrapmodes(header)) remark(text, "its wrap modes are not taken into account");
+  return text;
 }
 
 Metadata exrMetadata(std::string_view bytes) {
-  exrHeaders(bytes);  // so that no attribute is longer than the file
-  const Imf::Header header = headerOf(bytes);
+  const bool several = exrHeaders(bytes).several;  // no attribute is longer than the file
+  const std::vector<Imf::Header> all = headersOf(bytes, several);
+  if (all.empty()) return {};
+  const Imf::Header& header = all[0];
   Metadata metadata;  // in the order of their names: EXR keeps no other
   for (auto attribute = header.begin(); attribute != header.end(); ++attribute) {
     const std::string_view name = attribute.name();

@@ -85,7 +85,9 @@ std::string hdrRemark(std::string_view bytes);
 
 std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata);
 Raster decodeExr(std::string_view bytes, const PictureLimits& limits);
+Raster decodeExrLayer(std::string_view bytes, const PictureLimits& limits, const std::string& layer);
 std::string exrRemark(std::string_view bytes);
+std::string exrLayerRemark(std::string_view bytes, const std::string& layer);
 Metadata exrMetadata(std::string_view bytes);
 
 bool isWebp(std::string_view bytes);

@@ -140,6 +140,42 @@ void checkBlock(std::string_view packed, std::uint64_t wanted, ExrLayout::Packin
   if (length != wanted) throw std::runtime_error("a block of pixels has the wrong length");
 }
 
+std::uint64_t blocksAlong(std::int64_t all, int each) {
+  return static_cast<std::uint64_t>((all + each - 1) / each);
+}
+
+/// The sides of the levels, from the full one on: halves until it is 1. `longest` decides how many there are.
+std::vector<std::int64_t> levelSides(std::int64_t side, std::int64_t longest, bool roundsUp) {
+  std::vector<std::int64_t> sides;
+  const auto half = [&](std::int64_t whole, int level) {
+    const std::int64_t step = std::int64_t{1} << level;
+    return roundsUp ? (whole + step - 1) / step : whole / step;
+  };
+  for (int level = 0; level == 0 || half(longest, level - 1) > 1; ++level)
+    sides.push_back(std::max<std::int64_t>(half(side, level), 1));
+  return sides;
+}
+
+/// As many as OpenEXR's getChunkOffsetTableSize() counts.
+std::uint64_t blockCount(const ExrLayout& layout) {
+  const std::int64_t width = std::int64_t{layout.maxX} - layout.minX + 1,
+                     height = std::int64_t{layout.maxY} - layout.minY + 1;
+  if (!layout.isTiled()) return blocksAlong(height, layout.rows);
+  using Levels = ExrLayout::Levels;
+  const bool each = layout.levels == Levels::ripmap;
+  std::vector<std::int64_t> widths{width}, heights{height};
+  if (layout.levels != Levels::one) {
+    const std::int64_t longest = std::max(width, height);
+    widths = levelSides(width, each ? width : longest, layout.roundsUp);
+    heights = levelSides(height, each ? height : longest, layout.roundsUp);
+  }
+  std::uint64_t count = 0;
+  for (std::size_t i = 0; i < widths.size(); ++i)
+    for (std::size_t k = each ? 0 : i; k < (each ? heights.size() : i + 1); ++k)
+      count += blocksAlong(widths[i], layout.tileWidth) * blocksAlong(heights[k], layout.tileHeight);
+  return count;
+}
+
 }  // namespace
 
 ExrHeaders exrHeaders(std::string_view bytes) {
@@ -153,17 +189,22 @@ ExrHeaders exrHeaders(std::string_view bytes) {
   return headers;
 }
 
-void checkExrBlocks(std::string_view bytes, const ExrHeaders& headers, const ExrLayout& layout) {
-  const bool tiled = layout.tileWidth > 0 && layout.tileHeight > 0;
+void checkExrBlocks(std::string_view bytes, const ExrHeaders& headers, const std::vector<ExrLayout>& parts) {
+  const ExrLayout& layout = parts.back();
+  const bool tiled = layout.isTiled();
   const int width = tiled ? layout.tileWidth : layout.maxX - layout.minX + 1;
   const int height = tiled ? layout.tileHeight : layout.rows;
-  const auto count = [](std::int64_t all, int each) { return (all + each - 1) / each; };
-  const std::int64_t columns = count(std::int64_t{layout.maxX} - layout.minX + 1, width);
-  const std::int64_t rows = count(std::int64_t{layout.maxY} - layout.minY + 1, height);
-  Walker table(bytes, headers.offsets);
+  const auto columns =
+      static_cast<std::int64_t>(blocksAlong(std::int64_t{layout.maxX} - layout.minX + 1, width));
+  const auto rows =
+      static_cast<std::int64_t>(blocksAlong(std::int64_t{layout.maxY} - layout.minY + 1, height));
+  std::uint64_t offsets = headers.offsets;
+  for (std::size_t part = 0; part + 1 < parts.size(); ++part) offsets += 8 * blockCount(parts[part]);
+  Walker table(bytes, offsets);
   for (std::int64_t i = 0; i < columns * rows; ++i) {
     Walker block(bytes, table.whole(8));
-    if (headers.several) block.integer();  // the part
+    if (headers.several && block.integer() != static_cast<int>(parts.size()) - 1)
+      throw std::runtime_error("a block of pixels is of another part");
     std::int64_t column = 0, row = 0;
     if (tiled) {
       column = block.integer();

@@ -19,22 +19,28 @@ struct ExrHeaders {
 /// Throws std::runtime_error for an attribute that does not fit into the file.
 ExrHeaders exrHeaders(std::string_view bytes);
 
-/// What the first part's blocks should hold.
+/// What the blocks of a part should hold.
 struct ExrLayout {
   struct Channel {
     int bytes, xSampling, ySampling;
   };
   enum class Packing { none, runs, deflate, other };
+  enum class Levels { one, mipmap, ripmap };  ///< of a tiled part: what is there at lower resolution
 
   Packing packing = Packing::other;
   int rows = 1;  ///< of a block
   int minX = 0, minY = 0, maxX = 0, maxY = 0;
   std::vector<Channel> channels;
   int tileWidth = 0, tileHeight = 0;  ///< of a tiled part
+  Levels levels = Levels::one;
+  bool roundsUp = false;  ///< sides of lower levels
+
+  bool isTiled() const { return tileWidth > 0 && tileHeight > 0; }
 };
 
-/// Throws std::runtime_error unless every block of the full resolution is there and unpacks to all its
-/// pixels. Of Packing::other, which OpenEXR checks itself, only that it is there.
-void checkExrBlocks(std::string_view bytes, const ExrHeaders& headers, const ExrLayout& layout);
+/// Throws std::runtime_error unless every block of the full resolution of the last of these parts is there
+/// and unpacks to all its pixels. Of Packing::other, which OpenEXR checks itself, only that it is there.
+/// `parts` are those of the file from the first on; no window may be empty.
+void checkExrBlocks(std::string_view bytes, const ExrHeaders& headers, const std::vector<ExrLayout>& parts);
 
 }  // namespace trace

@@ -9,6 +9,8 @@
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/read_scope.h"
+#include "image/codec.h"
+#include "image/picture_name.h"
 #include "scene/scene.h"
 
 namespace trace {
@@ -26,9 +28,12 @@ Picture missingPicture(int width, int height) {
 
 class Reader {
  public:
-  Reader(InputFiles& inputs, const PictureLimits& limits) : inputs_(inputs), limits_(limits) {}
+  Reader(InputFiles& inputs, const PictureLimits& limits, Messages& messages)
+      : inputs_(inputs), limits_(limits), messages_(messages) {}
 
-  Picture picture(const std::string& path) {
+  /// `name` may choose a layer.
+  Picture picture(const std::string& name) {
+    const std::string path = pictureName(name).file;
     std::string bytes;
     try {
       bytes = readBeside("", path);  // as a scene's files are: nothing that may have no end
@@ -37,11 +42,14 @@ class Reader {
       throw;
     }
     inputs_.noteRead(path, bytes);
-    return decodePicture(bytes, path, limits_);
+    Picture read = decodePicture(bytes, name, limits_);
+    if (const std::string remark = pictureRemark(bytes, name); !remark.empty())
+      messages_.warn(Place{.file = path}, remark);
+    return read;
   }
 
   EnvironmentMap environment(const std::string& path, EnvironmentKind kind) {
-    checkMayRead(path);
+    checkMayRead(pictureName(path).file);
     std::error_code ignored;
     const bool folder = fs::is_directory(path, ignored);
     if (folder || (kind != EnvironmentKind::latLong && kind != EnvironmentKind::angular)) {
@@ -106,6 +114,7 @@ class Reader {
 
   InputFiles& inputs_;
   const PictureLimits& limits_;
+  Messages& messages_;
 };
 
 /// make() of the file that the option names, or what stands for it.
@@ -145,7 +154,7 @@ void readSurroundings(Scene& scene, const Settings& settings, const PictureLimit
                       const Surroundings* before) {
   Surroundings& now = scene.surroundings;
   if (before && !now.backdrop && !now.environment && !now.aperture) now = *before;
-  Reader reader(now.files, limits);
+  Reader reader(now.files, limits, messages);
   if (now.backdropFile != settings.backdrop) {
     now.backdrop = nullptr;
     now.backdropFile = settings.backdrop;

@@ -8,6 +8,7 @@
 #include "app/difference.h"
 #include "image/codec.h"
 #include "program.h"
+#include "support/exr.h"
 
 namespace trace::test {
 namespace {
@@ -40,6 +41,20 @@ TEST_F(Diff, ExitCodes) {
     EXPECT_TRUE(contains(r.err, std::string("cannot read \"") + wrong));
   }
   EXPECT_EQ(run({"diff", "a.png"}).code, 2);
+}
+
+TEST_F(Diff, ALayerIsChosenByNameAndOthersAreReported) {
+  write("a.exr", layeredExr());
+  const Run usual = run({"diff", "a.exr", "a.exr:left", "--print", "max"});
+  EXPECT_EQ(usual.code, 1);
+  EXPECT_EQ(usual.out, "1\n");
+  EXPECT_TRUE(contains(usual.err, "warning: a.exr: its layers are not shown: left")) << usual.err;
+  EXPECT_FALSE(contains(usual.err, "a.exr:left:")) << usual.err;
+  EXPECT_EQ(run({"diff", "a.exr:left", "a.exr:left"}).code, 0);
+  const Run unknown = run({"diff", "a.exr", "a.exr:right"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_TRUE(contains(unknown.err, "expected one of its layers, beauty, shine, left")) << unknown.err;
+  EXPECT_TRUE(contains(run({"diff", "a.exr:left", "a.exr", "-o", "a.exr"}).err, "are the same file"));
 }
 
 TEST_F(Diff, DoesNotWriteOverWhatItReads) {

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "formats/format.h"
 #include "image/codec.h"
+#include "support/exr.h"
 #include "support/folder.h"
 
 namespace trace::test::inputs_test {
@@ -54,6 +55,26 @@ TEST_F(Inputs, OfRay) {
   for (const char* name : {"a.png", "b.png", "bump.png", "wood.png", "bark.png"})
     EXPECT_EQ(knows(scene, name), kNamed) << name;
   EXPECT_EQ(knows(scene, "c.png"), kNone);
+}
+
+TEST_F(Inputs, LayersOfAPictureAreOneFile) {
+  write("a.exr", layeredExr());
+  write("a.ray", std::string(kRay) + R"(sphere { material = { diffuse = map("a.exr:left"); } }
+    sphere { material = { diffuse = map("a.exr:shine"); } }
+    sphere { material = { diffuse = map("a.exr"); } })");
+  Messages messages;
+  const Scene scene = readScene(folder_ / "a.ray", messages);
+  EXPECT_EQ(knows(scene, "a.exr"), kRead);
+  EXPECT_EQ(knows(scene, "a.exr:left"), kNone);
+  std::vector<double> reds;
+  for (const Material& material : scene.materials)
+    for (const FieldTexture& texture : material.textures)
+      reds.push_back(std::get<ImageMap>(texture.texture->model).file.map->texel(0, 0).color.r);
+  EXPECT_EQ(reds, (std::vector<double>{2, 3, 1}));
+  ASSERT_EQ(std::count_if(messages.all().begin(), messages.all().end(),
+                          [](const Message& m) { return m.what.find("layers") != m.what.npos; }),
+            1)
+      << "of the picture in which none was chosen";
 }
 
 TEST_F(Inputs, OfObj) {

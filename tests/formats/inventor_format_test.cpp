@@ -275,11 +275,13 @@ TEST(Inventor, EnginesAreReportedAndIgnoredFieldsKeepTheirDefaults) {
 
 TEST(Inventor, TellsWhereAndWhat) {
   const std::pair<std::string, std::string_view> cases[] = {
-      {"#Inventor V2.1 binary\n\x01",
-       "1:1: binary Open Inventor is not read [Inventor's ivcat, or any program that writes VRML, makes a "
-       "text file of "
-       "it]"},
-      {"#VRML V3.0 utf8", "1:1: expected #Inventor V2.1 ascii, #VRML V1.0 ascii or #VRML V2.0 utf8"},
+      {"#Inventor V2.1 binary\n\x01", "0:0: byte 22: expected 4 bytes, found the end of the file"},
+      {"#Inventor V1.0 binary\n",
+       "0:0: byte 22: expected version 2.0 or 2.1 of binary Open Inventor [ivcat of Debian's inventor-clients "
+       "makes "
+       "a text file of it]"},
+      {"#VRML V3.0 utf8",
+       "1:1: expected #Inventor V2.1 ascii or binary, #VRML V1.0 ascii or #VRML V2.0 utf8"},
       {iv("Separator { Cube { }"), "2:1: this node is never closed with \"}\""},
       {vrml2("Group { children [ Group { }"), "2:9: the list of this field is never closed with \"]\""},
       {iv("Separator { 5 }"), "2:13: Separator: expected a field or a node, found 5"},

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "inventor_bytes.h"
 #include "scene_probes.h"
 #include "support/gltf.h"
 
@@ -43,7 +44,9 @@ TEST(Probes, OfInventor) {
   Nodes n("#Inventor V2.1 ascii\n");
   const std::string ball = "Sphere { }", two = "Sphere { } Cube { }";
   n.all.push_back(
-      {"#Inventor binary", "#Inventor V2.1 ascii\n" + ball, "#Inventor V2.1 binary\n\1\2\3", "binary"});
+      {"#Inventor binary", "#Inventor V2.1 ascii\n" + ball,
+       test::InventorBytes().file(test::InventorBytes().node(
+           "Sphere", {test::InventorBytes::field("radius", test::InventorBytes::numbers({2}))}))});
   n.add("DEF and USE", "DEF a " + ball + " USE a", "DEF a " + ball);
   n.add("field value ~", ball, "Sphere { radius 2 ~ }");
   n.add("= Engine", ball,

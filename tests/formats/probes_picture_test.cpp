@@ -31,7 +31,7 @@ Outcome readProbe(const std::string& bytes) {
             outcome.seen += " " + std::to_string(static_cast<double>(sample) / raster.most);
         },
         raster.samples);
-    if (const std::string remark = pictureRemark(bytes); !remark.empty()) outcome.told.push_back(remark);
+    if (const std::string remark = pictureRemark(bytes, "a"); !remark.empty()) outcome.told.push_back(remark);
   } catch (const Error& error) {
     outcome.error = error.messages().front().what;
   }
@@ -137,8 +137,9 @@ TEST(Probes, OfPng) {
        chunk("tEXt", "tEXt", raw("Title\0a quad")),
        chunk("zTXt", "zTXt", raw("Title\0\0") + packed("a quad")),
        chunk("iTXt", "iTXt", raw("Title\0\0\0\0\0a quad"))});
-  EXPECT_EQ(pictureRemark(png(pngChunk("iCCP", raw("a\0\0") + packed("the profile sRGB IEC61966-2.1")))), "");
-  EXPECT_EQ(pictureRemark(png(pngChunk("gAMA", big(45455)))), "");
+  EXPECT_EQ(pictureRemark(png(pngChunk("iCCP", raw("a\0\0") + packed("the profile sRGB IEC61966-2.1"))), "a"),
+            "");
+  EXPECT_EQ(pictureRemark(png(pngChunk("gAMA", big(45455))), "a"), "");
 }
 
 // --- JPEG --------------------------------------------------------------------------------------------------
@@ -475,11 +476,16 @@ TEST(Probes, OfExr) {
   auto chroma = std::vector<P::Layer>{{"BY", half}, {"RY", half}, {"Y", {0, 1, 0, 1}}};
   P upward;
   upward.lineOrder = 1;
+  const auto space =
+      std::vector<P::Layer>{{"X", layers[2].values}, {"Y", layers[1].values}, {"Z", layers[0].values}};
   expectPictures(knownExrFields(),
                  {{"R, G, B", grey.bytes(), plain},
                   {"A", plain, P{.layers = withAlpha}.bytes()},
                   {"Y", plain, grey.bytes()},
                   {"Y, RY, BY", grey.bytes(), P{.layers = chroma}.bytes()},
+                  {"X, Y, Z", grey.bytes(), P{.layers = space}.bytes(), "", plain},
+                  {"U, V", grey.bytes(), P{.layers = {{"U", {1, 0, 0, 1}}, {"V", {0, 1, 0, 1}}}}.bytes(), "",
+                   P{.layers = {{"G", {0, 1, 0, 1}}, {"R", {1, 0, 0, 1}}}}.bytes()},
                   {"one channel", plain, P{.layers = {{"G", {0, 1, 0, 1}}}}.bytes(), "", grey.bytes()},
                   {"other channels", plain, P{.layers = withDepth}.bytes(), "channels that are not shown: Z"},
                   {"layers", plain, P{.layers = withLayer}.bytes(), "layers are not shown"},
@@ -535,7 +541,7 @@ TEST(Probes, OfWebp) {
        {"other chunks", plain, extended(0, "", webpChunk("mine", "odd"))}});
   const Outcome named = readProbe(extended(8, "", webpChunk("EXIF", raw("Exif\0\0") + exif(2))));
   EXPECT_EQ(named.seen, readProbe(webpOf(upset)).seen) << "as some programs write it";
-  EXPECT_EQ(pictureRemark(extended(32, webpChunk("ICCP", "the profile sRGB IEC61966-2.1"), "")), "");
+  EXPECT_EQ(pictureRemark(extended(32, webpChunk("ICCP", "the profile sRGB IEC61966-2.1"), ""), "a"), "");
 }
 
 }  // namespace

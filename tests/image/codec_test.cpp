@@ -557,7 +557,7 @@ TEST(CodecWebp, OfAnAnimationTheFirstPictureIsShownOnItsCanvas) {
         EXPECT_EQ(samples[4 * (9 * y + x) + c], isInside ? inside[4 * (3 * (y - 6) + x - 4) + c] : 0)
             << x << " " << y;
       }
-  EXPECT_EQ(pictureRemark(file), "of an animation the first picture is shown");
+  EXPECT_EQ(pictureRemark(file, "a"), "of an animation the first picture is shown");
   for (std::size_t length = 0; length < file.size(); ++length)
     EXPECT_THROW(decodeRaster(file.substr(0, length), "cut"), Error) << length;
 }

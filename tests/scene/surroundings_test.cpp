@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "scene/scene.h"
+#include "support/exr.h"
 #include "support/folder.h"
 
 namespace trace::test {
@@ -48,6 +49,21 @@ TEST(Surroundings, PicturesAreReadAndNoted) {
   EXPECT_EQ(read->environment->at(Vec3{0, 1, 0}), Color(0, 0, 1));
   ASSERT_EQ(read.scene.inputs.all().size(), 2u);
   for (const InputFile& file : read.scene.inputs.all()) EXPECT_TRUE(file.read) << file.path;
+}
+
+TEST(Surroundings, ALayerIsChosenByName) {
+  const Folder folder;
+  const std::string file = folder / "sky.exr";
+  writeFile(file, layeredExr(8, 4));
+  const Read left({}, {{"environment", file + ":left", {}}, {"backdrop", file + ":shine", {}}});
+  ASSERT_TRUE(left->backdrop && left->environment);
+  EXPECT_EQ(left->environment->at(Vec3{0, 1, 0}), Color(2, 0, 0));
+  EXPECT_EQ(left->backdrop->at(0, 0), Color(3, 0, 0));
+  EXPECT_TRUE(left.messages.all().empty());
+  for (const InputFile& input : left.scene.inputs.all()) EXPECT_EQ(input.path, file);
+  const Read unnamed({}, {{"environment", file, {}}});
+  ASSERT_EQ(unnamed.messages.all().size(), 1u);
+  EXPECT_NE(unnamed.messages.all()[0].what.find("its layers are not shown: left"), std::string::npos);
 }
 
 TEST(Surroundings, AFolderOfFacesIsACubeAndSoIsOneOfThem) {

@@ -7,6 +7,7 @@
 #include "base/named_file.h"
 #include "base/nesting.h"
 #include "base/read_scope.h"
+#include "formats/inventor/inventor_binary.h"
 #include "formats/text_front.h"
 #include "formats/warnings.h"
 #include "formats/words.h"
@@ -17,16 +18,19 @@ namespace {
 constexpr TokenRules kInventorTokens{
     .marks = "[]{}()|~=", .comment = '#', .commasAreBlank = true, .stringEscapes = true};
 
+TokenRules inventorTokens(bool hasPlaces) {
+  TokenRules rules = kInventorTokens;
+  rules.hasPlaces = hasPlaces;
+  return rules;
+}
+
 Document::Version versionOf(const std::string& file, std::string_view line) {
   const auto begins = [&](std::string_view text) { return sameWord(line.substr(0, text.size()), text); };
-  const bool isBinary = hasWord(line, "binary");
   if (begins("#Inventor") && hasWord(line, "ascii")) return Document::Version::inventor;
   if (begins("#VRML V1.0")) return Document::Version::vrml1;
   if (begins("#VRML V2.0") || begins("#X3D")) return Document::Version::vrml2;
   throw Error(Fault::scene, Place{file, 1, 1, std::string(line)},
-              isBinary ? "binary Open Inventor is not read"
-                       : "expected #Inventor V2.1 ascii, #VRML V1.0 ascii or #VRML V2.0 utf8",
-              isBinary ? "Inventor's ivcat, or any program that writes VRML, makes a text file of it" : "");
+              "expected #Inventor V2.1 ascii or binary, #VRML V1.0 ascii or #VRML V2.0 utf8");
 }
 
 std::string_view firstLine(std::string_view bytes) {
@@ -324,9 +328,11 @@ Place Document::place(const Token& token) const {
 }
 
 Document::Document(std::string file, std::string_view bytes, Messages& messages, ProtoFiles* protoFiles)
-    : version_(versionOf(file, firstLine(bytes))),
-      size_(bytes.size()),
-      tokens_(std::move(file), bytes, kInventorTokens),
+    : made_(isBinary(bytes) ? textOfBinary(file, bytes) : ""),
+      text_(made_.empty() ? bytes : std::string_view(made_)),
+      version_(versionOf(file, firstLine(text_))),
+      size_(text_.size()),
+      tokens_(std::move(file), text_, inventorTokens(made_.empty())),
       ownFiles_(protoFiles ? nullptr : std::make_unique<ProtoFiles>()),
       protoFiles_(protoFiles ? protoFiles : ownFiles_.get()) {
   protoFiles_->try_emplace(tokens_.file());  // it cannot bring itself

@@ -52,7 +52,8 @@ struct ProtoFile;
 /// Those that a scene uses, by path, each read once; null while it is read, or if it cannot be.
 using ProtoFiles = std::map<std::string, std::shared_ptr<const ProtoFile>>;
 
-/// A parsed file; refers to the bytes it was made from.
+/// A parsed file; refers to the bytes it was made from, if these are text. A binary file is read as the text
+/// that it stands for, and places are the file as a whole.
 class Document {
  public:
   enum class Version { inventor, vrml1, vrml2 };
@@ -76,6 +77,8 @@ class Document {
  private:
   friend class Parser;
 
+  std::string made_;  ///< the text of a binary file
+  std::string_view text_;
   Version version_;
   std::size_t size_;
   bool oldCrease_ = false;
@@ -88,7 +91,7 @@ class Document {
   InputFiles inputs_;
 };
 
-/// Does the file begin with the header of one of the text formats?
+/// Does the file begin with the header of one of the formats?
 bool hasHeader(std::string_view bytes);
 
 }  // namespace trace::inventor

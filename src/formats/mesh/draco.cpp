@@ -1,9 +1,10 @@
-// Draco's decoder, which only this file sees. It makes room for the triangles that the head of its data
-// claims, before it looks for them: claims are compared with the number of bytes first. Source: Google, Draco
+// Draco's decoder, which only this file sees. It makes room for the triangles and values that its data claim
+// before it looks for them: claims are compared with the number of bytes first. Source: Google, Draco
 // bitstream specification, sections 2 to 4, as its decoder of version 1.5.5 reads it.
 #include "formats/mesh/draco.h"
 
-#include <draco/compression/decode.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/core/varint_decoding.h>
 #include <draco/metadata/metadata_decoder.h>
 
@@ -19,6 +20,7 @@ namespace {
 
 /// The start of a compressed mesh.
 struct DracoHead {
+  bool isEdgebreaker = false;  ///< or sequential
   std::uint32_t faces = 0, points = 0;
   std::uint8_t seams = 0;  ///< attributes with connectivity of their own
 };
@@ -40,7 +42,8 @@ class DracoHeadReader {
     const auto method = plain<std::uint8_t>();
     if ((plain<std::uint16_t>() & kMetadata) != 0 && version_ >= 0x0103) skipMetadata();
     DracoHead head;
-    if (method != kEdgebreaker) {
+    head.isEdgebreaker = method == kEdgebreaker;
+    if (!head.isEdgebreaker) {
       head.faces = version_ < 0x0202 ? plain<std::uint32_t>() : packed();
       head.points = version_ < 0x0202 ? plain<std::uint32_t>() : packed();
       return head;
@@ -80,9 +83,8 @@ class DracoHeadReader {
 };
 
 /// The best that Draco does is ten triangles a byte, of a flat grid; an attribute with seams adds its own.
-void checkClaims(std::string_view bytes) {
+void checkClaims(std::string_view bytes, const DracoHead& head) {
   constexpr double kAny = 4096, kPerByte = 100;
-  const DracoHead head = DracoHeadReader(bytes).read();
   const double most = kAny + kPerByte * static_cast<double>(bytes.size());
   const double triangles = static_cast<double>(head.faces) * (1 + head.seams);
   if (triangles <= most && head.points <= most) return;
@@ -122,18 +124,48 @@ std::vector<unsigned char> valuesOf(const draco::Mesh& mesh, const DracoAttribut
   return valuesAs<float>(*from, mesh.num_points(), wanted.components);
 }
 
+/// Stops before it makes room for more values than so many bytes can hold.
+template <class MeshDecoder>
+class CheckedDecoder : public MeshDecoder {
+ public:
+  std::unique_ptr<draco::Mesh> decode(std::string_view bytes) {
+    bytes_ = static_cast<double>(bytes.size());
+    draco::DecoderBuffer buffer;
+    buffer.Init(bytes.data(), bytes.size());
+    auto mesh = std::make_unique<draco::Mesh>();
+    const draco::Status status = this->Decode(draco::DecoderOptions(), &buffer, mesh.get());
+    if (!refused_.empty()) throw std::runtime_error(refused_);
+    if (status.ok()) return mesh;
+    const std::string reason = status.error_msg_string();
+    throw std::runtime_error(reason.empty() ? "the data are damaged" : "the data are damaged: " + reason);
+  }
+
+ private:
+  /// Five points a byte, of twenty components each, would be the best that Draco does.
+  bool DecodeAllAttributes() override {
+    constexpr double kAny = 1 << 20, kPerByte = 256;
+    const draco::PointCloud& mesh = *this->point_cloud();
+    double values = 0;
+    for (int i = 0; i < mesh.num_attributes(); ++i)
+      values += static_cast<double>(mesh.attribute(i)->num_components()) * mesh.num_points();
+    if (values <= kAny + kPerByte * bytes_) return MeshDecoder::DecodeAllAttributes();
+    refused_ = std::to_string(mesh.num_attributes()) + " attributes of " + std::to_string(mesh.num_points()) +
+               " points are not believable in " + std::to_string(static_cast<std::size_t>(bytes_)) + " bytes";
+    return false;
+  }
+
+  double bytes_ = 0;
+  std::string refused_;
+};
+
 std::unique_ptr<draco::Mesh> decodedMesh(std::string_view bytes) {
-  draco::DecoderBuffer buffer;
-  buffer.Init(bytes.data(), bytes.size());
-  draco::Decoder decoder;
-  auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-  if (decoded.ok()) return std::move(decoded).value();
-  const std::string reason = decoded.status().error_msg_string();
-  throw std::runtime_error(reason.empty() ? "the data are damaged" : "the data are damaged: " + reason);
+  const DracoHead head = DracoHeadReader(bytes).read();
+  checkClaims(bytes, head);
+  return head.isEdgebreaker ? CheckedDecoder<draco::MeshEdgebreakerDecoder>().decode(bytes)
+                            : CheckedDecoder<draco::MeshSequentialDecoder>().decode(bytes);
 }
 
 DracoMesh meshIn(std::string_view bytes, std::span<const DracoAttribute> attributes) {
-  checkClaims(bytes);
   const std::unique_ptr<draco::Mesh> mesh = decodedMesh(bytes);
   DracoMesh result;
   result.points = mesh->num_points();

@@ -8,6 +8,7 @@
 #include "formats/model_textures.h"
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
+#include "image/picture_name.h"
 
 namespace trace {
 namespace {
@@ -49,7 +50,7 @@ std::vector<Real> lengths(std::span<const Vec2> profile) {
 /// A matt material with the picture, whose name is seen from the file `from`.
 Material painted(const std::string& from, const std::string& picture, InputFiles& inputs) {
   namespace fs = std::filesystem;
-  const std::string bytes = readBeside("", picture, inputs);
+  const std::string bytes = readBeside("", pictureName(picture).file, inputs);
   const fs::path folder = fs::absolute(from).parent_path().lexically_normal();
   const Pixels pixels{fs::absolute(picture).lexically_normal().lexically_relative(folder).string(),
                       MipMap::decode(bytes, picture), Place{.file = picture}};

@@ -10,6 +10,7 @@
 #include "formats/ray/ray_texture.h"
 #include "formats/textures.h"
 #include "image/codec.h"
+#include "image/picture_name.h"
 
 namespace trace::rayfile {
 
@@ -209,8 +210,11 @@ bool read(Findings& findings, std::string_view name, const Item& value, Heights&
     return true;
   }
   try {
-    const Picture picture =
-        decodePicture(readBeside(findings.syntax().file(), file, findings.scene().inputs), file);
+    const std::string bytes =
+        readBeside(findings.syntax().file(), pictureName(file).file, findings.scene().inputs);
+    const Picture picture = decodePicture(bytes, file);
+    if (const std::string remark = pictureRemark(bytes, file); !remark.empty())
+      findings.warn(value, "\"" + file + "\": " + remark);
     if (min(picture.width, picture.height) < 2 || max(picture.width, picture.height) > kMostSide) {
       findings.error(value, std::string(name) + ": expected a picture of 2 to " + std::to_string(kMostSide) +
                                 " pixels along each side");
