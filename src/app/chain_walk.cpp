@@ -47,7 +47,7 @@ std::string ChainWalk::summary() const {
 std::string sentence(const ChainMove& move) {
   char text[240];
   if (move.number < 0)
-    std::snprintf(text, sizeof text, "starts at pixel %d, %d, brings %s there, light %.4g", move.x, move.y,
+    std::snprintf(text, sizeof text, "starts at pixel %d, %d, contributes %s there, light %.4g", move.x, move.y,
                   channels(move.brings).c_str(), move.light);
   else
     std::snprintf(text, sizeof text,

@@ -12,6 +12,8 @@ namespace trace::lint_checks {
 
 void causticsMissing(const LintScene& s, Findings& findings) {
   const auto counts = [&](std::uint32_t light, std::uint32_t object) {
+    const bool isChosen = s.scene.lights[light].place.line == 0;  // by Trace: nobody misses its glint
+    if (isChosen && !gathersLight(s.world, object, true)) return false;
     return s.survey.objects[object].places > 0 &&
            (s.survey.lights[light].places > 0 || shinesOn(s.scene, s.world, light, object));
   };

@@ -55,7 +55,7 @@ TEST(ChainWalk, TheRaysOfAMoveAreTheSampleThatWasOffered) {
         for (const auto channel : {&Color::r, &Color::g, &Color::b})
           EXPECT_NEAR(move.brings.*channel, traced.*channel, 1e-12 * std::abs(traced.*channel));
       }
-      EXPECT_NE(sentence(move).find("brings " + channels(move.brings) + " there"), std::string::npos);
+      EXPECT_NE(sentence(move).find(channels(move.brings) + " there"), std::string::npos);
     }
   }
   EXPECT_GT(elsewhere, 0);

@@ -10,13 +10,13 @@ fail() { echo "FAILED: $*" >&2; exit 1; }
 
 cmake --install "$build" --prefix "$folder/usr" >"$folder/log" || fail "cmake --install"
 cd "$folder"
-docs=usr/share/doc/trace-ray
-[[ -f "$docs/LICENSE" && -f "$docs/README.md" ]] || fail "no licence or README in $docs"
-[[ -f "$docs/docs/ray-format.md" ]] || fail "no pages"
+doc=usr/share/doc/trace-ray
+[[ -f "$doc/LICENSE" && -f "$doc/README.md" ]] || fail "no licence or README in $doc"
+[[ -f "$doc"/docs/ray-format.md ]] || fail "no pages"
 for name in ray trace-ray; do
   "usr/bin/$name" --version | grep -q '^Trace ' || fail "the installed program does not run as $name"
 done
-usr/bin/ray "$docs/scenes/glass.ray" -w 16 picture.png -q || fail "it does not render the installed scene"
+usr/bin/ray "$doc/scenes/glass.ray" -w 16 picture.png -q || fail "it does not render the installed scene"
 [[ -s picture.png ]] || fail "no picture"
 
 # What shells, man and desktops want; tests of cli look at what stands in the pages and completions.
@@ -33,7 +33,7 @@ for kind in --man '--completion bash' '--completion zsh' '--completion fish'; do
 done
 if [[ -x "$build/bin/ray-studio" ]]; then
   usr/bin/ray-studio --version | grep -q '^Trace ' || fail "the studio was built and does not run installed"
-  usr/bin/ray gui a b 2>&1 | grep -q 'at most one scene' || fail "ray gui"
+  { usr/bin/ray gui a b 2>&1 || true; } | grep -q 'at most one scene' || fail "ray gui"
   [[ -e usr/libexec/trace-ray/ray-studio ]] || fail "ray gui does not find the studio beside itself"
   for file in man/man1/ray-studio.1 bash-completion/completions/ray-studio applications/trace-ray-studio.desktop; do
     [[ -s "usr/share/$file" ]] || fail "no share/$file"

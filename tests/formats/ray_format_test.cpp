@@ -804,7 +804,9 @@ TEST(RayFormat, WarnsOfValuesOutOfRange) {
       "sphere { material = { diffuse = (0, 1.5, 0); index = -1 } } box { material = { diffuse = (2, 3, 4) } "
       "}";
   EXPECT_EQ(warningsOf(text),
-            "2:23: diffuse of material: expected 0 to 1, found 1.5 (4 times, first here)\n"
+            "2:23: diffuse of material: expected 0 to 1, found 1.5 (4 times, first here) [a colour goes from "
+            "0 to 1; #ff8000 is "
+            "one as picture programs write it]\n"
             "2:46: index of material: expected at least 0, found -1");
   EXPECT_EQ(phongOf(load(text).scene, 0).diffuse, Color(0, 1.5, 0));
   EXPECT_EQ(warningsOf("julia { iteration = cube; iterations = 40; }"),

@@ -68,7 +68,7 @@ TEST(RaySyntax, IsLenientAboutSeparatorsCommentsAndLineEnds) {
 
 TEST(RaySyntax, TakesLettersOfEveryAlphabet) {
   EXPECT_EQ(outline(std::string_view("K\u00e4se{gr\u00f6\u00dfe-2=\u043a\u0438\u0442}")),
-            "{K\u00e4se:{gr\u00f6\u00dfe-2=\u043a\u0438\u0442}}");
+            "{K\u00e4se:{gr\u00f6\u00dfe-2='\u043a\u0438\u0442'}}");
   EXPECT_EQ(outline(std::string_view("\u7403{\u534a\u5f84=1}")), "{\u7403:{\u534a\u5f84=1}}");
 }
 

@@ -371,7 +371,7 @@ class Parser {
       const std::string_view text = textAt(at_);
       const std::string_view rest = source_.substr(at_);
       fail(at_, std::string("expected ") + expected + ", found " + shownFirst(rest),
-           looksLikeFile(text) ? quotesHint(text) : std::string(hintFor(rest)));
+           hintFor(rest).empty() && looksLikeFile(text) ? quotesHint(text) : std::string(hintFor(rest)));
     }
   }
 
