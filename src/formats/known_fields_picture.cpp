@@ -117,11 +117,7 @@ constexpr std::array kExrRows{
     KnownField{"layers", kReported,
                "shown is the one that the name of the file chooses, the one without a name, or the first"},
     KnownField{"types half, float, uint", kShown, ""},
-<<<<<<< HEAD
     KnownField{"sampling", kRefused, "sampling of R, G, B below that of the picture"},
-=======
-    KnownField{"sampling", kRefused, "of R, G, B below that of the picture"},
->>>>>>> packed
     KnownField{"parts", kReported, "shown is the one that the name of the file chooses, or the first"},
     KnownField{"deep data", kRefused, ""},
     KnownField{"tiles", kShown, ""},

@@ -34,11 +34,7 @@ struct TokenRules {
   char comment = 0;        ///< begins a comment that ends with the line; 0: there are none
   bool commasAreBlank = false;
   bool stringEscapes = false;  ///< \" in a string does not end it
-<<<<<<< HEAD
   bool hasPlaces = true;       ///< false for a text that is not in the file: places are the file as a whole
-=======
-  bool hasPlaces = true;       ///< false for a text that nobody sees: places are the file as a whole
->>>>>>> packed
 };
 
 class Tokens {

@@ -46,11 +46,7 @@ struct PictureFormat {
   /// Remarks on a file that can be decoded: flaws, or parts that are not shown; "" if there is nothing to
   /// say.
   std::string (*remark)(std::string_view bytes);
-<<<<<<< HEAD
   /// Decodes a layer, by its name; null for formats without layers.
-=======
-  /// The same of a layer, by its name; null for formats without layers.
->>>>>>> packed
   Raster (*decodeLayer)(std::string_view bytes, const PictureLimits&, const std::string& layer) = nullptr;
   std::string (*layerRemark)(std::string_view bytes, const std::string& layer) = nullptr;
 };

@@ -19,31 +19,19 @@ struct ExrHeaders {
 /// Throws std::runtime_error for an attribute that does not fit into the file.
 ExrHeaders exrHeaders(std::string_view bytes);
 
-<<<<<<< HEAD
 /// The expected contents of the blocks of a part.
-=======
-/// What the blocks of a part should hold.
->>>>>>> packed
 struct ExrLayout {
   struct Channel {
     int bytes, xSampling, ySampling;
   };
   enum class Packing { none, runs, deflate, other };
-<<<<<<< HEAD
   enum class Levels { one, mipmap, ripmap };  ///< the lower resolutions of a tiled part
-=======
-  enum class Levels { one, mipmap, ripmap };  ///< of a tiled part: what is there at lower resolution
->>>>>>> packed
 
   Packing packing = Packing::other;
   int rows = 1;  ///< rows of a block
   int minX = 0, minY = 0, maxX = 0, maxY = 0;
   std::vector<Channel> channels;
-<<<<<<< HEAD
   int tileWidth = 0, tileHeight = 0;  ///< tile width and tile height of a tiled part
-=======
-  int tileWidth = 0, tileHeight = 0;  ///< of a tiled part
->>>>>>> packed
   Levels levels = Levels::one;
   bool roundsUp = false;  ///< sides of lower levels
 

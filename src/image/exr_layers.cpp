@@ -97,11 +97,7 @@ std::vector<std::string> unshownBeside(const ExrPart& part, const ShownChannels&
   return names;
 }
 
-<<<<<<< HEAD
 /// The channels shown of a part if no layer of it is chosen.
-=======
-/// What is shown of a part if no layer of it is chosen.
->>>>>>> packed
 ShownChannels defaultOf(const ExrPart& part) {
   if (part.channels.empty()) throw std::runtime_error("it has no channel");
   std::vector<std::string> layers = layersOf(part);
@@ -173,11 +169,7 @@ std::vector<std::string> choices(const std::vector<ExrPart>& parts) {
   return names;
 }
 
-<<<<<<< HEAD
 /// The channels shown if no layer is chosen.
-=======
-/// What is shown if no layer is chosen.
->>>>>>> packed
 ShownChannels usualOf(const std::vector<ExrPart>& parts) {
   ShownChannels found = defaultOf(parts[0]);
   std::vector<std::string> others;

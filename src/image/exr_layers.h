@@ -17,11 +17,7 @@ struct ShownChannels {
   std::size_t part = 0;
   std::vector<std::string> shown;   ///< red, green, blue or a grey, then alpha; "" for one that is black
   bool isChroma = false;            ///< Y, RY and BY stand for red, green and blue
-<<<<<<< HEAD
   std::string remark;               ///< names what is not shown
-=======
-  std::string remark;               ///< of what is not shown
->>>>>>> packed
   std::vector<std::string> others;  ///< names that would choose it
 };
 

@@ -6,10 +6,7 @@
 #include "base/file.h"
 #include "formats/format.h"
 #include "image/codec.h"
-<<<<<<< HEAD
 #include "shading/textures/image_map.h"
-=======
->>>>>>> packed
 #include "support/exr.h"
 #include "support/folder.h"
 
@@ -73,11 +70,7 @@ TEST_F(Inputs, LayersOfAPictureAreOneFile) {
   std::vector<double> reds;
   for (const Material& material : scene.materials)
     for (const FieldTexture& texture : material.textures)
-<<<<<<< HEAD
       reds.push_back(texture.texture->model.as<ImageMap>()->file.map->texel(0, 0).color.r);
-=======
-      reds.push_back(std::get<ImageMap>(texture.texture->model).file.map->texel(0, 0).color.r);
->>>>>>> packed
   EXPECT_EQ(reds, (std::vector<double>{2, 3, 1}));
   ASSERT_EQ(std::count_if(messages.all().begin(), messages.all().end(),
                           [](const Message& m) { return m.what.find("layers") != m.what.npos; }),

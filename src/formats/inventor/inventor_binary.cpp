@@ -176,11 +176,7 @@ class BinaryReader {
     return value;
   }
   std::uint32_t number() { return static_cast<std::uint32_t>(whole(4)); }
-<<<<<<< HEAD
   /// The number of values of at least 4 bytes each.
-=======
-  /// Of things that take at least 4 bytes each.
->>>>>>> packed
   std::size_t count(const char* of) {
     const std::size_t n = number();
     if (n <= (bytes_.size() - at_) / 4) return n;
@@ -246,11 +242,7 @@ class BinaryReader {
   void fields(const std::string& node) {
     constexpr std::uint32_t kCount = 0xff, kDescribed = 0x100;
     const std::uint32_t said = number();
-<<<<<<< HEAD
     std::map<std::string, std::string> types;  // field types of a node that its program has added
-=======
-    std::map<std::string, std::string> types;  // of a node that its program has added
->>>>>>> packed
     if (said & kDescribed)
       for (std::uint32_t n = said & kCount; n > 0; --n) {
         std::string type = string();
