@@ -179,7 +179,8 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
   const bool aims = s.noiseTarget > 0 && !subdivides(s);
   if (aims && chains)
     warn("--noise-target changes nothing: chains of mlt do not know the error of a pixel");
-  else if (aims && samplesOf(s) <= PixelSum::kFewest)
+  else if (aims && s.quality == Quality::none &&
+           samplesOf(s) <= PixelSum::kFewest)  // else nobody asked for it
     warn("--noise-target changes nothing: it looks at a pixel from " + std::to_string(PixelSum::kFewest) +
              " samples on, and --spp gives " + std::to_string(samplesOf(s)),
          "choose a larger --spp, such as 256");

@@ -177,6 +177,8 @@ TEST(RenderWarnings, AreNotToldWhereTheyDoSomething) {
   EXPECT_EQ(warnings(kLit + mesh, {{"smooth-terminator", "on", {}}}), "");
   EXPECT_EQ(warnings(kLit, {{"noise-target", "0.01", {}}, {"spp", "64", {}}, {"integrator", "path", {}}}),
             "");
+  EXPECT_EQ(warnings(kLit, {{"quality", "good", {}}, {"spp", "4", {}}}), "")
+      << "nobody asked for a noise target";
 }
 
 TEST(RenderWarnings, LinksToWhatIsNotThereAreToldOncePerName) {

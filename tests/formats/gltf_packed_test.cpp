@@ -126,7 +126,7 @@ TEST(GltfDraco, AllAttributesComeBackAsExactAsTheyWereKept) {
 TEST(GltfDraco, NumbersBecomeThoseOfTheAccessor) {
   Patch patch;
   std::vector<std::uint8_t> uvs;
-  for (std::size_t i = 0; i < 2 * patch.points(); ++i) uvs.push_back(static_cast<std::uint8_t>(10 * i));
+  for (std::size_t i = 0; i < 2 * patch.points(); ++i) uvs.push_back(static_cast<std::uint8_t>(2 * i));
   patch.add("TEXCOORD_0", 5121, 2, true, bytesOf(uvs));
   const Dracoed draco = dracoOf(patch, false, 0);
   const auto uvOf = [&](int componentType, bool normalized) {
@@ -135,11 +135,11 @@ TEST(GltfDraco, NumbersBecomeThoseOfTheAccessor) {
     accessorOf(square, "TEXCOORD_0")["normalized"] = normalized;
     return patchOf(readPacked(square.text())).uvs.at(2).x;
   };
-  EXPECT_NEAR(uvOf(5121, true), 40 / 255.0, 1e-12);
-  EXPECT_NEAR(uvOf(5126, false), 40 / 255.0, 1e-6);
-  EXPECT_EQ(uvOf(5123, false), 40);
-  EXPECT_EQ(uvOf(5120, false), 40);
-  EXPECT_EQ(uvOf(5125, false), 40);
+  EXPECT_NEAR(uvOf(5121, true), 8 / 255.0, 1e-12);
+  EXPECT_NEAR(uvOf(5126, false), 8 / 255.0, 1e-6);
+  EXPECT_EQ(uvOf(5123, false), 8);
+  EXPECT_EQ(uvOf(5120, false), 8);
+  EXPECT_EQ(uvOf(5125, false), 8);
 }
 
 TEST(GltfDraco, WhatIsThereASecondTimeIsReadAsItIs) {
@@ -291,12 +291,11 @@ TEST(GltfMeshopt, OctahedralNormals) {
     meshopt_encodeFilterOct(filtered.data(), patch.points(), static_cast<std::size_t>(stride), bits,
                             four.data());
     Square square = meshoptPatch(patch, "TRIANGLES", 2);
-    json& accessor = accessorOf(square, "NORMAL");
-    accessor["componentType"] = stride == 4 ? 5120 : 5122;
-    accessor["normalized"] = true;
-    accessor["bufferView"] =
+    const std::size_t view =
         addMeshoptView(square, meshoptVertices(filtered, static_cast<std::size_t>(stride)), "ATTRIBUTES",
                        patch.points(), static_cast<std::size_t>(stride), "OCTAHEDRAL");
+    accessorOf(square, "NORMAL")
+        .update({{"bufferView", view}, {"componentType", stride == 4 ? 5120 : 5122}, {"normalized", true}});
     withFallback(square);
     const ReadFile read = readPacked(withJoints(square).text());
     EXPECT_EQ(read.told, "");
@@ -319,7 +318,7 @@ TEST(GltfMeshopt, ExponentialPlacesAndCoordinates) {
   const ReadFile read = readPacked(withJoints(square).text());
   EXPECT_EQ(read.told, "");
   expectSame(read, plainRead(patch), 1e-3, 1e-6, 1e-3);
-  EXPECT_NE(patchOf(read).uvs, patchOf(plainRead(patch)).uvs) << "some bits are lost";
+  EXPECT_NE(patchOf(read).points, patchOf(plainRead(patch)).points) << "some bits are lost";
 }
 
 /// Two copies, the second turned by a quarter about z.
@@ -395,7 +394,7 @@ TEST(GltfMeshopt, DamageCostsTheMeshesThatUseItAndIsTold) {
     alone.root["scenes"][0]["nodes"] = {0, 1};
     const ReadFile read = readPacked(withFallback(alone).text());
     ASSERT_EQ(read.scene.objects.size(), 1u);
-    EXPECT_EQ(patchOf(read).triangles.size(), 3u);
+    EXPECT_EQ(patchOf(read).triangles.size(), 2u) << "one of the three is no more than an edge";
     EXPECT_NE(read.told.find(row.told), read.told.npos) << read.told;
   }
 }
@@ -433,8 +432,8 @@ TEST(GltfMeshopt, LostTurnsOfCopiesCostTheCopies) {
 TEST(GltfMeshopt, TheSameBytesAreNotDecompressedAgainAndAgain) {
   Square square = meshoptPatch(Patch(40), "TRIANGLES", 4);
   json& views = square.root["bufferViews"];
-  const json view = views[0];
-  for (int i = 0; i < 3000; ++i) views.push_back(view);
+  const json view = views.back();
+  for (int i = 0; i < 6000; ++i) views.push_back(view);
   const std::string error = errorOf(square.text());
   EXPECT_NE(error.find("compressed data are used too often"), error.npos) << error;
 }

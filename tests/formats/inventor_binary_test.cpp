@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/format.h"
+#include "geometry/mesh/mesh.h"
 #include "inventor_bytes.h"
 
 namespace trace::inventor_binary_test {
@@ -74,8 +75,21 @@ TEST(InventorBinary, IsTheTextThatItStandsFor) {
     const auto [found, words] = readBytes(scene(old));
     EXPECT_EQ(words, expectedWords);
     ASSERT_EQ(found.objects.size(), 4u);
-    EXPECT_EQ(found.objects, expected.objects);
-    EXPECT_EQ(found.materials, expected.materials);
+    ASSERT_EQ(found.materials.size(), expected.materials.size());
+    for (std::size_t i = 0; i < found.objects.size(); ++i) {
+      EXPECT_EQ(found.objects[i].worldFromObject, expected.objects[i].worldFromObject) << i;
+      EXPECT_EQ(found.objects[i].material, expected.objects[i].material) << i;
+      const Mesh *mesh = found.objects[i].shape.as<Mesh>(), *same = expected.objects[i].shape.as<Mesh>();
+      ASSERT_EQ(mesh != nullptr, same != nullptr) << i;
+      if (!mesh) continue;
+      EXPECT_EQ(mesh->data->points, same->data->points);
+      EXPECT_EQ(mesh->data->triangles, same->data->triangles);
+      EXPECT_EQ(mesh->data->materials, same->data->materials);
+    }
+    for (std::size_t i = 0; i < found.materials.size(); ++i) {
+      EXPECT_EQ(found.materials[i].model, expected.materials[i].model) << i;
+      EXPECT_EQ(found.materials[i].textures.size(), expected.materials[i].textures.size()) << i;
+    }
     EXPECT_EQ(found.camera, expected.camera);
     EXPECT_EQ(found.lights.size(), expected.lights.size());
   }

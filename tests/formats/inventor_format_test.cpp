@@ -275,9 +275,9 @@ TEST(Inventor, EnginesAreReportedAndIgnoredFieldsKeepTheirDefaults) {
 
 TEST(Inventor, TellsWhereAndWhat) {
   const std::pair<std::string, std::string_view> cases[] = {
-      {"#Inventor V2.1 binary\n\x01", "byte 22: expected 4 bytes, found the end of the file"},
+      {"#Inventor V2.1 binary\n\x01", "0:0: byte 22: expected 4 bytes, found the end of the file"},
       {"#Inventor V1.0 binary\n",
-       "byte 22: expected version 2.0 or 2.1 of binary Open Inventor [ivcat of Debian's inventor-clients "
+       "0:0: byte 22: expected version 2.0 or 2.1 of binary Open Inventor [ivcat of Debian's inventor-clients "
        "makes "
        "a text file of it]"},
       {"#VRML V3.0 utf8",

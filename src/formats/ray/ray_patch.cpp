@@ -289,6 +289,7 @@ std::string moved(const std::string& text, const std::string& from, const std::s
   };
   for (std::size_t i = 0; i < syntax.nodes().size(); ++i) {
     const Item item(syntax, static_cast<std::uint32_t>(i));
+    if (item.is(Kind::include)) see(Item(syntax, static_cast<std::uint32_t>(i + 1)));
     if (!item.keyed()) continue;
     const std::string_view key = item.key();
     const bool names = key == "file" || key == "objfile" || isFileOption(key) || isFaceOfBackground(key);
