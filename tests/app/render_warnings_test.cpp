@@ -178,7 +178,7 @@ TEST(RenderWarnings, AreNotToldWhereTheyDoSomething) {
   EXPECT_EQ(warnings(kLit + mesh, {{"smooth-terminator", "on", {}}}), "");
   EXPECT_EQ(warnings(kLit, {{"noise-target", "0.01", {}}, {"spp", "64", {}}, {"integrator", "path", {}}}),
             "");
-  EXPECT_EQ(warnings(kLit, {{"quality", "good", {}}, {"spp", "4", {}}}), "")
+  EXPECT_EQ(warnings(kLit, {{"quality", "good", {}}, {"spp", "16", {}}}), "")
       << "nobody asked for a noise target";
 }
 

@@ -344,7 +344,7 @@ TEST(Probes, OfGltfExtensions) {
   p.set("KHR_lights_punctual.color", lights + "color", {1, 0, 0}, "", point);
   p.set("KHR_lights_punctual.intensity", lights + "intensity", 3, "", point);
   p.set("KHR_lights_punctual.type", lights + "type", "directional", "", point);
-  p.set("KHR_lights_punctual.range", lights + "range", 3, "range is not taken into account", point);
+  p.set("KHR_lights_punctual.range", lights + "range", 3, "range is ignored", point);
   p.set("KHR_lights_punctual.spot.innerConeAngle", lights + "spot/innerConeAngle", 0.3, "", spot);
   p.set("KHR_lights_punctual.spot.outerConeAngle", lights + "spot/outerConeAngle", 0.3, "", spot);
 

@@ -155,7 +155,7 @@ TEST(Robustness, NoNameBecomesAStatement) {
           EXPECT_EQ(lines(files), lines(plain));
         }
         for (const NamedBytes& written : files)
-          for (char c : written.bytes)
+          for (char c : written.file.ends_with(".webp") ? std::string() : written.bytes)
             ASSERT_TRUE(c == '\n' || c == '\t' || (static_cast<unsigned char>(c) >= ' ' && c != '\x7f'));
         const Scene back = readScene(file, files.at(0).bytes, messages);
         EXPECT_EQ(back.objects.size(), objects);

@@ -6,6 +6,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "formats/ray/ray_student_textures.h"
+#include "image/picture_name.h"
 #include "shading/texture_flaws.h"
 #include "shading/textures/image_map.h"
 #include "shading/textures/marble.h"
@@ -53,7 +54,8 @@ bool TextureReader::isTexture(const Item& value) const {
 
 std::optional<TextureReader::Scaled> TextureReader::read(const Item& value) {
   const auto picture = [&](const Item& word) {
-    findings_.scene().inputs.noteNamed(besideFile(findings_.syntax().file(), std::string(word.text())));
+    findings_.scene().inputs.noteNamed(
+        besideFile(findings_.syntax().file(), pictureName(std::string(word.text())).file));
     return mappedPicture(std::string(word.text()), findings_.syntax().shortPlace(value.offset()));
   };
   if (isPictureFile(value)) return Scaled{picture(value), {}, true};
