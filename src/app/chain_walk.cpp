@@ -47,8 +47,8 @@ std::string ChainWalk::summary() const {
 std::string sentence(const ChainMove& move) {
   char text[240];
   if (move.number < 0)
-    std::snprintf(text, sizeof text, "starts at pixel %d, %d, contributes %s there, light %.4g", move.x, move.y,
-                  channels(move.brings).c_str(), move.light);
+    std::snprintf(text, sizeof text, "starts at pixel %d, %d, contributes %s there, light %.4g", move.x,
+                  move.y, channels(move.brings).c_str(), move.light);
   else
     std::snprintf(text, sizeof text,
                   "%s, to pixel %d, %d, contributes %s there: light %.4g after %.4g, acceptance %.3g: %s",

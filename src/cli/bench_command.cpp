@@ -2,11 +2,11 @@
 // docs/statistics.md has the keys.
 #include <array>
 
+#include "app/json.h"
 #include "app/ray_bench.h"
 #include "app/session.h"
 #include "cli/commands.h"
 #include "cli/formatted.h"
-#include "app/json.h"
 
 namespace trace::cli {
 namespace {

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "app/difference.h"
+#include "app/json.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "app/json.h"
 #include "cli/metric_text.h"
 #include "image/codec.h"
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <filesystem>
 
+#include "app/explain_json.h"
+#include "app/explain_text.h"
 #include "app/explained_rays.h"
 #include "app/ray_drawing.h"
 #include "app/session.h"
@@ -12,8 +14,6 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "app/explain_json.h"
-#include "app/explain_text.h"
 #include "cli/render_steps.h"
 #include "cli/terminal.h"
 #include "image/codec.h"

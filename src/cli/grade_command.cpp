@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "app/grade.h"
+#include "app/json.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "cli/commands.h"
-#include "app/json.h"
 #include "cli/metric_text.h"
 #include "cli/terminal.h"
 

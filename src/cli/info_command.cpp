@@ -6,11 +6,11 @@
 #include <array>
 #include <cstdio>
 
+#include "app/json.h"
 #include "app/session.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "app/json.h"
 #include "cli/scene_facts.h"
 #include "scene/conventions.h"
 

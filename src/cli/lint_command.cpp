@@ -2,13 +2,13 @@
 #include <array>
 
 #include "app/auto_exposure.h"
+#include "app/json.h"
 #include "app/lint.h"
 #include "app/render_warnings.h"
 #include "app/session.h"
 #include "base/file.h"
 #include "base/printable.h"
 #include "cli/commands.h"
-#include "app/json.h"
 #include "cli/scene_facts.h"
 
 namespace trace::cli {

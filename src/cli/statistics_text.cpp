@@ -3,9 +3,9 @@
 #include <optional>
 #include <string_view>
 
+#include "app/json.h"
 #include "base/parallel.h"
 #include "cli/formatted.h"
-#include "app/json.h"
 
 namespace trace::cli {
 namespace {

@@ -99,7 +99,8 @@ TEST_F(ResumeTest, OfAnotherPictureIsTold) {
   run(words("out.png", {"-w", "300", "-t", "1", "--time-limit", "0.3"}));
   const Run r = run(words("out.png", {"-w", "40"}));
   EXPECT_EQ(r.code, 0);
-  EXPECT_TRUE(contains(r.err, "starts from the beginning; out.png.checkpoint: it is of another picture")) << r.err;
+  EXPECT_TRUE(contains(r.err, "starts from the beginning; out.png.checkpoint: it is of another picture"))
+      << r.err;
   EXPECT_TRUE(exists("out.png.checkpoint")) << "who knows whose it is";
   EXPECT_TRUE(contains(r.err, "note: 1 checkpoint of other options or scenes lies there, ")) << r.err;
   EXPECT_TRUE(contains(r.err, "if it is wanted no more: rm out.png.checkpoint\n")) << r.err;
