@@ -481,9 +481,9 @@ TEST(CodecErrors, KindsThatAreNotReadAreNamed) {
       {"GIF89a", "a GIF picture"},
       {text({'I', 'I', '*', 0, 8, 0, 0, 0}), "a TIFF picture"},
       {"DDS |", "a DDS texture"}};
-  for (const auto& [bytes, kind] : kKinds) {
-    const std::string message = messageOf([&] { decodePicture(bytes, "a.png"); });
-    EXPECT_NE(message.find("found " + std::string(kind) + ", which is not read"), std::string::npos)
+  for (const auto& kind : kKinds) {
+    const std::string message = messageOf([&] { decodePicture(kind.first, "a.png"); });
+    EXPECT_NE(message.find("found " + std::string(kind.second) + ", which is not read"), std::string::npos)
         << message;
   }
 }
