@@ -187,7 +187,7 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
   if (part.kind == Part::Kind::sphere) {
     const Vec3 to = part.origin - from;
     const Real away2 = dot(to, to), radius2 = part.size * part.size;
-    if (!(away2 > radius2)) return {};  // from inside it is met at random
+    if (!(away2 > radius2)) return {};  // paths from inside hit it by bounces alone
     toLight = toCone(u, to / std::sqrt(away2), std::sqrt(1 - radius2 / away2));
     const Real along = dot(to, toLight);
     distance = along - std::sqrt(std::max(0.0, radius2 - (away2 - along * along)));

@@ -166,7 +166,7 @@ class World {
   bool convex(std::uint32_t object) const { return objects_[object].convex; }
   /// It encloses space; a mesh does if it is closed.
   bool solid(std::uint32_t object) const { return objects_[object].solid; }
-  /// Glass objects inside and across one another are told apart.
+  /// Nested and overlapping glass objects are distinguished.
   bool nestedGlass() const { return nestedGlass_; }
   /// The interior of the object at a point on it that looks like `terms`, by the conventions of a render.
   Filling filling(const Hit& hit, const WhittedTerms& terms, const Settings& settings) const;

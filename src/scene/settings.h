@@ -31,7 +31,7 @@ enum class Like { uw, uw2009, uw2001, ut, ubc, uw1998, usc };
 enum class Glass { perCrossing, perDistance };
 /// How much glass mirrors: what its material says, or by the angle.
 enum class Fresnel { constant, schlick, exact };
-/// Whether glass objects inside one another are told apart: where materials say `priority`, or always, or
+/// Whether nested glass objects are distinguished: where materials say `priority`, or always, or
 /// never.
 enum class NestedGlass { byPriority, on, off };
 enum class GlassShadows { filtered, black };
