@@ -114,6 +114,20 @@ TEST(Robustness, WhatWasReadIsWrittenAndReadAgain) {
   }
 }
 
+TEST(Robustness, AFileThatNoRayFileCanNameIsRefused) {
+  Messages messages;
+  const Scene scene = readScene(
+      "quoted.iv", "#Inventor V2.1 ascii\nSeparator { Texture2 { filename \"a\\\"b.png\" } Cube { } }",
+      messages);
+  try {
+    writeRay(scene, "out.ray", {}, messages);
+    ADD_FAILURE() << "a file of another name was written";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string_view(error.what()).find("without quotation marks"), std::string_view::npos)
+        << error.what();
+  }
+}
+
 // glTF, VRML and PLY names may hold anything; a writer must not let them become lines of its file.
 TEST(Robustness, NoNameBecomesAStatement) {
   const ReadScope allowed({test::sourceFolder()});
