@@ -10,6 +10,7 @@
 
 #include "base/file.h"
 #include "base/read_scope.h"
+#include "base/sanitized.h"
 #include "formats/format.h"
 #include "formats/ray/ray_writer.h"
 #include "geometry/mesh/mesh.h"
