@@ -3,6 +3,7 @@
 
 #include "render/sampler.h"
 #include "render/tracer.h"
+#include "scene/integrators.h"
 
 namespace trace {
 
@@ -10,7 +11,7 @@ namespace trace {
 inline int lightChoices(const Settings& settings, std::size_t lights) {
   constexpr std::size_t kFew = 32;
   if (settings.lightChoices > 0) return settings.lightChoices;
-  return settings.integrator != IntegratorKind::whitted && lights > kFew ? 1 : 0;
+  return lights > kFew && !hasTrait(settings, Trait::asksAllLights) ? 1 : 0;
 }
 
 /// A light that a place samples.
