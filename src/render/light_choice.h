@@ -36,8 +36,7 @@ void askLights(const Tracer& tracer, const Vec3& from, const Vec3* normal, const
     for (std::uint32_t i = 0; i < world.lights().size(); ++i) ask(AskedLight{i, 1, 1, sampler, i});
     return;
   }
-  constexpr std::uint32_t kChoices = 0x7ffffff0u;  // a branch other than those of the lights
-  const Sampler choosing = sampler.branch(kChoices);
+  const Sampler choosing = sampler.branch(Branch::lightChoice);
   Sampler numbers = choosing;
   const Real first = numbers.next();
   for (int k = 0; k < choices; ++k) {
