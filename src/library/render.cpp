@@ -208,7 +208,7 @@ Explanation Render::explain(int x, int y, int sample) const {
   return guarded([&] {
     const trace::Session& session = state_->session;
     const trace::Settings& settings = session.settings();
-    if (hasTrait(settings, Trait::byChains))
+    if (hasTrait(settings, trace::Trait::byChains))
       throw Error(
           Error::Kind::usage,
           "explain: chains make this picture, in no order of pixels: expected another integrator than " +
