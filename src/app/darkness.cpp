@@ -15,6 +15,7 @@
 #include "render/integrator.h"
 #include "render/passes.h"
 #include "render/render.h"
+#include "scene/integrators.h"
 #include "scene/options.h"
 
 namespace trace {
@@ -28,10 +29,10 @@ constexpr double kWanted = 90;       // the mean level of what is seen with the 
 
 /// The settings of a picture of cells: nothing that only the finished picture needs.
 Settings ofCells(Settings settings) {
-  const bool isPlain = settings.integrator == IntegratorKind::whitted;
+  const Traits traits = traitsOf(settings);
   settings.width = kCellsAcross;
   settings.height = kCellsDown;
-  settings.spp = isPlain ? 1 : 16;
+  settings.spp = traits.has(Trait::asksAllLights) ? 1 : 16;  // others are noisy
   settings.subdivide = 0;
   settings.noiseTarget = 0;
   settings.denoise = false;
@@ -42,7 +43,7 @@ Settings ofCells(Settings settings) {
   settings.photons = std::min(settings.photons, 50000);
   settings.photonPasses = 1;
   settings.caustics = std::min(settings.caustics, 20000);
-  if (settings.integrator == IntegratorKind::mlt) settings.integrator = IntegratorKind::path;
+  if (traits.has(Trait::byChains)) settings.integrator = IntegratorKind::path;
   return settings;
 }
 
@@ -262,7 +263,7 @@ std::optional<Message> darkness(const Scene& scene, const Settings& settings, co
                                 const Picture& cells) {
   const Development development = developmentOf(settings);
   if (!settings.region.whole() || settings.tone == Tone::stretch || scene.objects.empty() ||
-      settings.integrator == IntegratorKind::normals || settings.unweighted || settings.lightVertices >= 0 ||
+      hasTrait(settings, Trait::showsData) || settings.unweighted || settings.lightVertices >= 0 ||
       settings.cameraVertices >= 0)
     return {};
   std::vector<char> dark;

@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "geometry/shape.h"
 #include "scene/conventions.h"
+#include "scene/integrators.h"
 #include "scene/option_words.h"
 #include "scene/quality.h"
 
@@ -27,9 +28,6 @@ template <>
 constexpr std::array<std::string_view, 2> kNames<Accel>{"bvh", "none"};
 template <>
 constexpr std::array<std::string_view, 4> kNames<Quality>{"none", "draft", "good", "final"};
-template <>
-constexpr std::array<std::string_view, 9> kNames<IntegratorKind>{
-    "whitted", "path", "direct", "bdpt", "mlt", "photon", "occlusion", "normals", "cost"};
 template <>
 constexpr std::array<std::string_view, 3> kNames<Chains>{"bdpt", "path", "veach"};
 template <>
@@ -93,11 +91,19 @@ constexpr std::array<std::string_view, 3> kNames<PassFormat>{"exr", "png", "same
 template <>
 constexpr std::array<std::string_view, 2> kNames<PassDepth>{"view", "ray"};
 
-/// Names that are known only at run time.
+/// Names that other tables have.
 std::span<const std::string_view> shapeNames() {
   static const std::vector<std::string_view> kAll = [] {
     std::vector<std::string_view> all;
     for (const ShapeType& type : shapeTypes()) all.push_back(type.keyword);
+    return all;
+  }();
+  return kAll;
+}
+std::span<const std::string_view> integratorNames() {
+  static const std::vector<std::string_view> kAll = [] {
+    std::vector<std::string_view> all;
+    for (const IntegratorRow& row : integrators()) all.push_back(row.name);
     return all;
   }();
   return kAll;
@@ -108,6 +114,8 @@ template <class Enum>
 std::span<const std::string_view> namesOf() {
   if constexpr (std::is_same_v<Enum, ShapeKind>)
     return shapeNames();
+  else if constexpr (std::is_same_v<Enum, IntegratorKind>)
+    return integratorNames();
   else
     return kNames<Enum>;
 }
@@ -322,9 +330,16 @@ struct Text {
   Repeats repeats = Repeats::picture;
   double least = 0, most = kNoLimit;
   std::string_view unit = "";
-  std::string_view integrators = "all";
+  EnumSet<IntegratorKind> integrators = everyIntegrator();
   bool extra = false;
 };
+
+/// Integrators that options concern, besides sets by a trait.
+using Integrators = EnumSet<IntegratorKind>;
+constexpr Integrators kWhitted{IntegratorKind::whitted};
+constexpr Integrators kOcclusion{IntegratorKind::occlusion};
+/// All that show light.
+Integrators lit() { return kWhitted | integratorsWith(Trait::meetsLamps); }
 
 template <auto Member>
 Option row(const Text& t) {
@@ -513,7 +528,7 @@ const std::array kOptions{
                                .source = "Hall and Greenberg 1983, adaptive depth",
                                .least = 0,
                                .most = 1,
-                               .integrators = "whitted",
+                               .integrators = kWhitted,
                                .extra = true}),
     row<&Settings::fireflyLimit>(
         {.name = "firefly-limit",
@@ -523,7 +538,7 @@ const std::array kOptions{
          .source = "docs/path-tracing.md",
          .least = 0,
          .most = 1e9,
-         .integrators = "path, direct, bdpt, mlt, photon",
+         .integrators = integratorsWith(Trait::meetsLamps),
          .extra = true}),
     row<&Settings::lightVertices>(
         {.name = "light-vertices",
@@ -532,7 +547,7 @@ const std::array kOptions{
          .source = "Veach 1997, chapter 10; docs/bidirectional.md",
          .least = -1,
          .most = 1000,
-         .integrators = "bdpt",
+         .integrators = integratorsWith(Trait::joinsEnds),
          .extra = true}),
     row<&Settings::cameraVertices>({.name = "camera-vertices",
                                     .group = "Tracing",
@@ -541,14 +556,14 @@ const std::array kOptions{
                                     .source = "Veach 1997, chapter 10; docs/bidirectional.md",
                                     .least = -1,
                                     .most = 1000,
-                                    .integrators = "bdpt",
+                                    .integrators = integratorsWith(Trait::joinsEnds),
                                     .extra = true}),
     row<&Settings::unweighted>(
         {.name = "unweighted",
          .group = "Tracing",
          .help = "shows a strategy without its MIS weight; use it with --light-vertices or --camera-vertices",
          .source = "Veach 1997, chapter 9; docs/bidirectional.md",
-         .integrators = "bdpt",
+         .integrators = integratorsWith(Trait::joinsEnds),
          .extra = true}),
     row<&Settings::chains>(
         {.name = "chains",
@@ -556,13 +571,13 @@ const std::array kOptions{
          .help = "state space of the Markov chains: the samples of path, those of bdpt with one strategy "
                  "each, or paths that Veach's mutations change (veach)",
          .source = "Hachisuka, Kaplanyan and Dachsbacher 2014; Veach and Guibas 1997; docs/metropolis.md",
-         .integrators = "mlt",
+         .integrators = integratorsWith(Trait::byChains),
          .extra = true}),
     row<&Settings::mutations>({.name = "mutations",
                                .group = "Tracing",
                                .help = "mutations of --chains veach, apart from new paths (--move-anywhere)",
                                .source = "Veach and Guibas 1997, section 5; docs/metropolis.md",
-                               .integrators = "mlt"}),
+                               .integrators = integratorsWith(Trait::byChains)}),
     row<&Settings::chainStarts>(
         {.name = "chain-starts",
          .group = "Tracing",
@@ -571,7 +586,7 @@ const std::array kOptions{
          .least = 1,
          .most = 1e8,
          .unit = "samples",
-         .integrators = "mlt"}),
+         .integrators = integratorsWith(Trait::byChains)}),
     row<&Settings::moveAnywhere>({.name = "move-anywhere",
                                   .group = "Tracing",
                                   .help = "probability of a large step, which replaces the whole sample; the "
@@ -579,14 +594,14 @@ const std::array kOptions{
                                   .source = "Kelemen et al. 2002",
                                   .least = 0.01,
                                   .most = 1,
-                                  .integrators = "mlt"}),
+                                  .integrators = integratorsWith(Trait::byChains)}),
     row<&Settings::moveSize>({.name = "move-size",
                               .group = "Tracing",
                               .help = "size of a small step, as a part of the range",
                               .source = "docs/metropolis.md",
                               .least = 1e-6,
                               .most = 1,
-                              .integrators = "mlt"}),
+                              .integrators = integratorsWith(Trait::byChains)}),
     row<&Settings::lampSamples>({.name = "lamp-samples",
                                  .group = "Tracing",
                                  .help = "shadow rays from each hit point to emissive objects, and to a sky "
@@ -595,7 +610,7 @@ const std::array kOptions{
                                  .least = 0,
                                  .most = 4096,
                                  .unit = "rays",
-                                 .integrators = "whitted",
+                                 .integrators = kWhitted,
                                  .extra = true}),
     row<&Settings::ambientOcclusion>({.name = "ambient-occlusion",
                                       .group = "Tracing",
@@ -605,7 +620,7 @@ const std::array kOptions{
                                       .least = 0,
                                       .most = 4096,
                                       .unit = "rays",
-                                      .integrators = "whitted",
+                                      .integrators = integratorsWith(Trait::addsAmbient),
                                       .extra = true}),
     row<&Settings::occlusionReach>(
         {.name = "occlusion-reach",
@@ -615,7 +630,7 @@ const std::array kOptions{
          .least = 0,
          .most = 1e9,
          .unit = "units",
-         .integrators = "whitted, occlusion"}),
+         .integrators = integratorsWith(Trait::addsAmbient) | kOcclusion}),
     row<&Settings::photons>(
         {.name = "photons",
          .group = "Tracing",
@@ -624,7 +639,7 @@ const std::array kOptions{
          .least = 1,
          .most = 50e6,
          .unit = "photons",
-         .integrators = "photon"}),
+         .integrators = integratorsWith(Trait::photons)}),
     row<&Settings::photonPasses>(
         {.name = "photon-passes",
          .group = "Tracing",
@@ -634,13 +649,13 @@ const std::array kOptions{
          .least = 1,
          .most = 1000,
          .unit = "maps",
-         .integrators = "photon"}),
+         .integrators = integratorsWith(Trait::photons)}),
     row<&Settings::finalGather>({.name = "final-gather",
                                  .group = "Tracing",
                                  .help = "estimate indirect light by rays whose hit points use the photon "
                                          "map; grain in place of blotches and blur",
                                  .source = "Jensen 1996; docs/photons.md",
-                                 .integrators = "photon",
+                                 .integrators = integratorsWith(Trait::photons),
                                  .extra = true}),
     row<&Settings::irradianceCache>(
         {.name = "irradiance-cache",
@@ -650,7 +665,7 @@ const std::array kOptions{
          .source = "Ward, Rubinstein and Clear 1988; docs/photons.md",
          .least = 0,
          .most = 1,
-         .integrators = "photon",
+         .integrators = integratorsWith(Trait::photons),
          .extra = true}),
     row<&Settings::irradianceRays>({.name = "irradiance-rays",
                                     .group = "Tracing",
@@ -659,14 +674,14 @@ const std::array kOptions{
                                     .least = 4,
                                     .most = 65536,
                                     .unit = "rays",
-                                    .integrators = "photon"}),
+                                    .integrators = integratorsWith(Trait::photons)}),
     row<&Settings::smoothTerminator>(
         {.name = "smooth-terminator",
          .group = "Tracing",
          .help = "shadow rays from a mesh start on the smooth surface of its vertex normals: the line "
                  "between light and shade shows no facets",
          .source = "Hanika 2021; docs/smooth-terminator.md",
-         .integrators = "whitted, path, direct, bdpt, mlt, photon, occlusion",
+         .integrators = lit() | kOcclusion,
          .extra = true}),
     row<&Settings::caustics>(
         {.name = "caustics",
@@ -677,7 +692,7 @@ const std::array kOptions{
          .least = 0,
          .most = 50e6,
          .unit = "photons",
-         .integrators = "whitted, photon",
+         .integrators = kWhitted | integratorsWith(Trait::photons),
          .extra = true}),
     row<&Settings::causticRadius>(
         {.name = "caustic-radius",
@@ -688,7 +703,7 @@ const std::array kOptions{
          .least = 0,
          .most = 1e9,
          .unit = "units",
-         .integrators = "whitted, photon"}),
+         .integrators = kWhitted | integratorsWith(Trait::photons)}),
     row<&Settings::causticTexels>({.name = "caustic-texels",
                                    .group = "Tracing",
                                    .help = "Arvo's illumination maps: texels a side of a map of caustics for "
@@ -697,7 +712,7 @@ const std::array kOptions{
                                    .least = 0,
                                    .most = 4096,
                                    .unit = "texels",
-                                   .integrators = "whitted",
+                                   .integrators = kWhitted,
                                    .extra = true}),
     row<&Settings::nestedGlass>(
         {.name = "nested-glass",
@@ -728,7 +743,7 @@ const std::array kOptions{
                             .help = "rough metal, varnish and glass trace one random ray of their lobe, for "
                                     "blurred reflections; needs many samples a pixel",
                             .source = "Cook, Porter and Carpenter 1984; docs/materials.md",
-                            .integrators = "whitted",
+                            .integrators = kWhitted,
                             .extra = true}),
     row<&Settings::models>(
         {.name = "models",
@@ -928,7 +943,7 @@ const std::array kOptions{
          .least = 0,
          .most = 1e6,
          .unit = "per unit",
-         .integrators = "whitted, path, direct, bdpt, mlt, photon",
+         .integrators = lit(),
          .extra = true}),
     row<&Settings::fogColor>(
         {.name = "fog-color",
@@ -937,7 +952,7 @@ const std::array kOptions{
          .source = "",
          .least = 0,
          .most = 1,
-         .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
+         .integrators = lit()}),
     row<&Settings::fogHeight>(
         {.name = "fog-height",
          .group = "Fog",
@@ -946,7 +961,7 @@ const std::array kOptions{
          .least = 0,
          .most = 1e9,
          .unit = "units",
-         .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
+         .integrators = lit()}),
     row<&Settings::fogForward>({.name = "fog-forward",
                                 .group = "Fog",
                                 .help = "mean cosine of scattering: from -1, backward, over 0, isotropic, to "
@@ -954,7 +969,7 @@ const std::array kOptions{
                                 .source = "Henyey and Greenstein 1941",
                                 .least = -1,
                                 .most = 1,
-                                .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
+                                .integrators = lit()}),
     row<&Settings::fogSamples>({.name = "fog-samples",
                                 .group = "Fog",
                                 .help = "points on every ray that sample the lights, in fog and media",
@@ -962,7 +977,7 @@ const std::array kOptions{
                                 .least = 1,
                                 .most = 10000,
                                 .unit = "points",
-                                .integrators = "whitted"}),
+                                .integrators = kWhitted}),
     row<&Settings::mediumDepth>({.name = "medium-depth",
                                  .group = "Fog",
                                  .help = "largest number of scattering events in fog, smoke, clouds and milk",
@@ -970,7 +985,7 @@ const std::array kOptions{
                                  .least = 1,
                                  .most = 10000,
                                  .unit = "times",
-                                 .integrators = "path, bdpt, mlt, photon"}),
+                                 .integrators = integratorsWith(Trait::scattersInMedia)}),
     row<&Settings::subsurfaceSamples>({.name = "subsurface-samples",
                                        .group = "Fog",
                                        .help = "points at which light enters marble, milk or skin, for every "
@@ -979,7 +994,7 @@ const std::array kOptions{
                                        .least = 1,
                                        .most = 10000,
                                        .unit = "points",
-                                       .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
+                                       .integrators = lit()}),
     row<&Settings::like>({.name = "like",
                           .group = "Conventions",
                           .help = "conventions of a course: sets every option of this group",

@@ -8,6 +8,7 @@
 #include "base/match.h"
 #include "base/text.h"
 #include "geometry/shapes/csg_tree.h"
+#include "scene/integrators.h"
 #include "scene/picture_size.h"
 
 namespace trace {
@@ -110,7 +111,7 @@ Settings settingsFor(const Scene& scene, std::initializer_list<std::span<const C
   if (settings.quality == Quality::none || isChosen("integrator", layers)) return settings;
   settings.integrator = integratorFor(scene, settings);
   // How exact a light image is is not known, so that nothing can be denoised by it.
-  if (isBidirectional(settings) && !isChosen("denoise", layers)) settings.denoise = false;
+  if (hasLightImage(settings) && !isChosen("denoise", layers)) settings.denoise = false;
   return settings;
 }
 
