@@ -42,11 +42,11 @@ constexpr PictureChange::Channels kChannelOrders[] = {
 
 constexpr double kLevel = 1.0 / 255;
 constexpr int kLargestBlock = 8, kMostBlocks = 128, kLeastBlocks = 25;
-constexpr double kDecisive = 0.25;         // of the difference may be left
+constexpr double kDecisive = 0.25;         // the share of the difference that may be left
 constexpr double kDecisiveShift = 0.75;    // the same for a shift
-constexpr double kOpposite = 1.25;         // of the difference is what the opposite shift must leave
-constexpr double kLeftOfContrast = 0.1;    // of the contrast may be left
-constexpr double kWorthwhile = 1.0 / 200;  // of the contrast is a difference that needs a cause
+constexpr double kOpposite = 1.25;         // the share that the opposite shift must leave at least
+constexpr double kLeftOfContrast = 0.1;    // the share of the contrast that may be left
+constexpr double kWorthwhile = 1.0 / 200;  // the least share of the contrast that needs a cause
 constexpr double kLeastContrast = 2 * kLevel;
 constexpr double kMiddles = 1e-4;  // chooses among changes that rounding alone cannot tell apart
 constexpr double kMostBrightening = 32, kLeastBrightening = 1.005;
@@ -370,7 +370,7 @@ std::array<ChangeCandidate, 4> bestOfEachCount(const LoadedPicture& reference, c
         candidate.change.turn = turn;
         candidate.change.channels = channels;
         ChangeCandidate& found = best[static_cast<std::size_t>(candidate.change.parts())];
-        // Of equals the first one is kept, though their sums were rounded differently.
+        // The first of equals is kept, though their sums were rounded differently.
         if (candidate.left < found.left - 1e-9 * contrast) found = candidate;
       }
     }

@@ -30,12 +30,12 @@ struct PictureChange {
   Channels channels;
   Curve curve = Curve::none;
   bool darkens = false;        ///< the inverse of the curve, which brightens
-  double factor = 1;           ///< of a scale; at least 1, or at most 1 if it darkens
+  double factor = 1;           ///< the factor of a scale; at least 1, or at most 1 if it darkens
   double right = 0, down = 0;  ///< the shift in pixels: a multiple of one half
 
   /// The number of parts that change something; right and down are one.
   int parts() const;
-  /// What was done, to follow on the name of the reference: "upside down and with red and blue exchanged".
+  /// The change in words, to follow the name of the reference: "upside down and with red and blue exchanged".
   std::string text() const;
 };
 
@@ -44,8 +44,8 @@ std::string_view curveName(PictureChange::Curve curve);
 
 struct DifferenceCause {
   PictureChange change;
-  /// Of what is left when the change is undone, without what the rounding to levels explains; in the unit of
-  /// the difference. A shift is compared away from the border.
+  /// The error that is left when the change is undone, beyond that of rounding to levels; in the unit of the
+  /// difference. The pixels at the border do not count.
   double rmse = 0;
 };
 
@@ -63,7 +63,7 @@ struct DifferenceCause {
 /// below a two-hundredth of the contrast.
 ///
 /// The sizes must be equal, or those of a picture turned by 90 degrees; else there is no cause. Values that
-/// are not finite count as 0. Never fails, but for the budget: Error(Fault::limit).
+/// are not finite count as 0. Throws Error(Fault::limit) if the time is over.
 std::optional<DifferenceCause> causeOfDifference(const LoadedPicture& reference, const LoadedPicture& test);
 
 /// One sentence without a full stop: "mine.png is ref.png upside down; nothing else differs beyond rounding".
