@@ -41,6 +41,24 @@ bool sameBits(const Color& a, const Color& b) {
   return same(a.r, b.r) && same(a.g, b.g) && same(a.b, b.b);
 }
 
+// --- the order of terms ---
+
+Color contributionOf(const Term& term) { return term.dark ? Color(0) : term.factor * term.value; }
+
+/// The largest channel, whatever its sign; more than any number where one is not finite.
+Real sizeOfTerm(const Term& term) {
+  const Color c = contributionOf(term);
+  return isFinite(c) ? max(std::abs(c.r), max(std::abs(c.g), std::abs(c.b))) : kInfinity;
+}
+
+/// The term changes no digit of the sum that is printed. A term of exactly 0 may say why, so it is none.
+bool isBelowDigits(const Term& term, const Color& sum) {
+  constexpr Real kHalfADigit = 5e-7;  // the sum has six
+  const Color c = contributionOf(term);
+  const auto below = [](Real part, Real all) { return std::abs(part) <= kHalfADigit * std::abs(all); };
+  return !isBlack(c) && below(c.r, sum.r) && below(c.g, sum.g) && below(c.b, sum.b);
+}
+
 // --- the tree ---
 
 /// Rays deeper than so many levels stand at the same margin, and name the ray that sent them.
@@ -134,9 +152,27 @@ class TreeText {
            " off the facet: on the smooth surface of the corners' normals");
   }
 
+  /// The largest first. The sum is that of all, in the order of the equation, which JSON keeps.
   void terms(const ExplainedRay& explained) {
     const RayNode& node = *explained.node;
+    Color sum;
+    for (const Term& term : node.terms) sum += contributionOf(term);
+    std::vector<std::size_t> order;
+    std::size_t left = 0;
+    std::string rays;
     for (std::size_t i = 0; i < node.terms.size(); ++i) {
+      const Term& term = node.terms[i];
+      if (!isBelowDigits(term, sum)) {
+        order.push_back(i);
+        continue;
+      }
+      ++left;
+      if (term.ray >= 0) rays += " #" + std::to_string(term.ray);
+    }
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return sizeOfTerm(node.terms[a]) > sizeOfTerm(node.terms[b]);
+    });
+    for (const std::size_t i : order) {
       const Term& term = node.terms[i];
       const ExplainedTerm& named = explained.terms[i];
       const std::string kind(Term::kNames[static_cast<std::size_t>(term.kind)]);
@@ -188,6 +224,10 @@ class TreeText {
                  digits(term.photons->radius);
       line(words);
     }
+    constexpr std::size_t kMostNamed = 40;  // characters
+    if (left > 0)
+      line("+ " + counted(left, "term") + " below the last digit of the sum" +
+           (rays.empty() || rays.size() > kMostNamed ? "" : ", of" + rays));
     if (!(node.through == Color(1))) line("* medium " + digits(node.through) + " passes");
     line("= " + digits(node.radiance));
   }

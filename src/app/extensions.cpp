@@ -1,12 +1,16 @@
 #include "app/extensions.h"
 
+#include <algorithm>
 #include <array>
 
 #include "app/difference.h"
+#include "app/grade_files.h"
 #include "app/session.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "image/codec.h"
 #include "image/flip.h"
+#include "scene/scene_features.h"
 
 namespace trace {
 namespace {
@@ -16,7 +20,8 @@ namespace {
 constexpr std::string_view kModels = "materials-models.ray", kPhong = "--models phong";
 
 constexpr std::array kExtensions{
-    Extension{"spp", "several rays a pixel for smooth edges", "antialias.ray", "--spp 1", "--spp 9", ""},
+    Extension{"spp", "several rays a pixel for smooth edges", "antialias.ray", "--spp 1", "--spp 9", "",
+              "--spp 1"},
     Extension{"noise-target", "adaptive sampling: nearly the same picture with fewer samples",
               "antialias.ray", "--spp 64 --sampling sobol", "--spp 64 --noise-target 0.01", ""},
     Extension{"subdivide",
@@ -58,7 +63,7 @@ constexpr std::array kExtensions{
     Extension{"integrator", "global illumination: every wall lights the others", "cornell.ray",
               "--spp 36 --integrator whitted", "--spp 36", ""},
     Extension{"bdpt", "bidirectional path tracing: lamps in bowls and shades light the room", "uplight.ray",
-              "--integrator path --spp 36", "--spp 36", ""},
+              "--integrator path --spp 36", "--spp 36", "", "--integrator path"},
     Extension{"light-vertices", "the contribution of light sampling, one of the strategies", "uplight.ray",
               "--spp 16", "--spp 16 --light-vertices 1", ""},
     Extension{"camera-vertices", "light-traced paths that reach the camera directly", "uplight.ray",
@@ -66,11 +71,11 @@ constexpr std::array kExtensions{
     Extension{"unweighted", "a single strategy without its MIS weights", "uplight.ray",
               "--spp 16 --camera-vertices 1", "--spp 16 --camera-vertices 1 --unweighted on", ""},
     Extension{"mlt", "Markov chains of paths that explore where light was found", "door.ray",
-              "--integrator path --spp 36", "--spp 36", ""},
+              "--integrator path --spp 36", "--spp 36", "", "--integrator path"},
     Extension{"chains", "mutations of path vertices in place of random numbers", "door.ray",
               "--chains bdpt --spp 36", "--chains veach --spp 36", ""},
     Extension{"photon", "photon maps: caustics of glass, and light between walls", "photons.ray",
-              "--integrator path --spp 16", "--spp 16 --photons 300000", ""},
+              "--integrator path --spp 16", "--spp 16 --photons 300000", "", "--integrator path"},
     Extension{"final-gather", "final gathering: rays estimate indirect light from the photon map",
               "cornell.ray", "--integrator photon --spp 16 --photons 20000",
               "--integrator photon --spp 16 --photons 20000 --final-gather on", ""},
@@ -95,14 +100,15 @@ constexpr std::array kExtensions{
     Extension{"fresnel", "glass reflects more at grazing angles", "coloured-glass.ray", "--fresnel constant",
               "--fresnel exact", ""},
     Extension{"nested-glass", "glass objects inside and across one another", "nested-glass.ray",
-              "--nested-glass off", "--nested-glass on", ""},
+              "--nested-glass off", "--nested-glass on", "", "--nested-glass off"},
     Extension{"wavelengths", "dispersion: glass refracts colours differently", "prism.ray", "--wavelengths 1",
               "", ""},
     Extension{"varnish", "opaque surfaces reflect like a clear coat", "coloured-glass.ray", "--varnish off",
               "--varnish on", ""},
     Extension{"textures", "patterns and pictures on and in objects", "textures.ray", "--textures off", "",
               ""},
-    Extension{"bumps", "normals perturbed by a texture", "bumps.ray", "--textures off", "", ""},
+    Extension{"bumps", "normals perturbed by a texture", "bumps.ray", "--textures off", "", "",
+              "--switched-off bump"},
     Extension{"displacement", "points of meshes moved by a texture: stones with outlines and shadows",
               "displacement.ray", "--textures off", "", ""},
     Extension{"backdrop", "a picture behind the scene", "backdrop.ray", "--backdrop none", "", ""},
@@ -111,12 +117,13 @@ constexpr std::array kExtensions{
               "--glossy off", "", ""},
     Extension{"outlines", "lines around objects and along their edges", "ink.ray", "--outlines 0", "", ""},
     Extension{"thin film", "colours of soap bubbles, by the thickness of their film", "bubbles.ray",
-              "--models phong", "", ""},
+              "--models phong", "", "", "--models phong"},
     Extension{"film on metal", "colours of anodised titanium and tempered steel", "oxide.ray",
-              "--models phong", "", ""},
+              "--models phong", "", "", "--models phong"},
     Extension{"opacity", "holes in any material, and veils", "holes.ray", "--textures off", "", ""},
-    Extension{"frost", "a pane roughened by frost", "frost.ray", "--textures off", "", ""},
-    Extension{"rain", "drops, and oil on a wet street", "rain.ray", "--models phong", "", ""},
+    Extension{"frost", "a pane roughened by frost", "frost.ray", "--textures off", "", "", "--textures off"},
+    Extension{"rain", "drops, and oil on a wet street", "rain.ray", "--models phong", "", "",
+              "--models phong"},
     Extension{"lambert", "perfectly diffuse light, and no highlight", kModels, kPhong, "",
               BALL(258, 60, 458, 260)},
     Extension{"oren_nayar", "clay and the moon: flat, with a bright rim towards the light", kModels, kPhong,
@@ -135,7 +142,7 @@ constexpr std::array kExtensions{
     Extension{
         "layers",
         "lacquer, fibres, grain, tint and film of one model, and glass that colours and disperses light",
-        "principled.ray", kPhong, "", ""},
+        "principled.ray", kPhong, "", "", "--models phong"},
     Extension{"conductor", "metal in the colour of its measured indices", kModels, kPhong, "",
               BALL(858, 260, 1058, 460)},
     Extension{"velvet", "cloth with bright edges", kModels, kPhong, "", BALL(58, 460, 258, 660)},
@@ -154,6 +161,29 @@ constexpr std::array kExtensions{
     Extension{"hatching", "strokes and dots that grow in the shade", "ink.ray", kPhong, "", ""},
 };
 #undef BALL
+
+/// Names are compared in small letters, with a dash for a space or an underline.
+std::string dashed(std::string_view name) {
+  std::string text = lowerCase(std::string(name));
+  for (char& c : text)
+    if (c == ' ' || c == '_') c = '-';
+  return text;
+}
+
+/// Short names of parts of scenes.
+constexpr std::pair<std::string_view, std::string_view> kShortNames[] = {{"media", "medium"},
+                                                                         {"spot", "spot_light"},
+                                                                         {"warn", "warn_light"},
+                                                                         {"ies", "goniometric_light"},
+                                                                         {"projector", "projector_light"}};
+
+/// The option of that name at its value for off; none if there is no such option.
+std::vector<Choice> optionOff(std::string_view name) {
+  for (const Option& option : options())
+    if (option.name == name)
+      return {{std::string(name), option.kind == Option::Kind::boolean ? "off" : option.get(Settings{}), {}}};
+  return {};
+}
 
 std::string commandOf(const Extension& extension, std::string_view words) {
   std::string command = "ray scenes/" + std::string(extension.scene);
@@ -191,6 +221,32 @@ std::vector<Choice> choicesIn(std::string_view words) {
   return choices;
 }
 
+std::vector<std::string> namesToSwitchOff() {
+  std::vector<std::string> names;
+  for (const Extension& e : kExtensions) names.push_back(dashed(e.name));
+  for (const std::string_view name : sceneFeatureNames()) names.push_back(dashed(name));
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+std::vector<Choice> choicesWithout(std::string_view name) {
+  std::string wanted = dashed(name);
+  for (const auto& [brief, whole] : kShortNames)
+    if (wanted == brief) wanted = dashed(whole);
+  for (const Extension& e : kExtensions)
+    if (dashed(e.name) == wanted && !e.switchOff.empty()) return choicesIn(e.switchOff);
+  for (const std::string_view feature : sceneFeatureNames())
+    if (dashed(feature) == wanted) return {{"switched-off", std::string(feature), {}}};
+  for (const Extension& e : kExtensions)
+    if (dashed(e.name) == wanted) return optionOff(e.name);
+  const std::vector<std::string> all = namesToSwitchOff();
+  const std::vector<std::string_view> names(all.begin(), all.end());
+  const std::string hint = didYouMean(wanted, names);
+  throw Error(Fault::usage, "expected the name of an extension, found \"" + std::string(name) + "\"",
+              hint.empty() ? "ray features lists them" : hint);
+}
+
 Picture pictureOf(const Extension& extension, bool on, const std::string& scenes,
                   std::span<const Choice> more) {
   std::vector<Choice> choices = choicesIn(extension.view.empty() ? "--width 240" : extension.view);
@@ -211,7 +267,12 @@ std::string extensionsMarkdown() {
       "edit.\n\nThis page shows the extensions of Trace beyond the ray tracer of the courses: each example "
       "without it, with it, and the difference of the two pictures. All are off unless the scene or the "
       "command line asks for them. Shading models are compared with the closest Blinn-Phong approximation "
-      "(`--models phong`).\n";
+      "(`--models phong`).\n\n`--without NAME` switches any of them off, also one that the scene asks for: "
+      "`--without aperture`, `--without thin-film`. Parts of scenes have names, too: `--without media`, "
+      "`spot`, `warn`, "
+      "`ies`, `projector`, `bump`, `displacement` and `opacity`, and each shading model alone. The lights "
+      "become point lights at "
+      "their place, the shading models Phong's closest approximation.\n";
   for (const Extension& e : kExtensions) {
     text += "\n## " + std::string(e.name) + "\n\n" + std::string(e.adds) + ".\n\n";
     for (const std::string_view which : {"off", "on", "difference"})

@@ -6,6 +6,7 @@
 #include <new>
 #include <set>
 
+#include "app/diff_cause.h"
 #include "app/grade_files.h"
 #include "app/session.h"
 #include "base/budget.h"
@@ -112,6 +113,9 @@ void compareInto(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
     pair.problem = "the picture is " + std::to_string(d.test.picture.width) + "x" +
                    std::to_string(d.test.picture.height) + ", the reference " + std::to_string(pair.width) +
                    "x" + std::to_string(pair.height);
+  if (!passes(pair.verdict))
+    if (const auto cause = causeOfDifference(d.reference, d.test))
+      pair.cause = causeText(*cause, "the reference", "the picture", d.unit());
   if (task.keepsPictures) addPictures(pair, d, task.magnify);
 }
 
@@ -129,6 +133,7 @@ void compareOrNote(GradedPair& pair, const GradeTask& task, InputFiles& inputs) 
   } catch (const Error& error) {
     lookAtBudget();  // if the time of all is over, this pair is not at fault
     pair.values.clear();
+    pair.cause.clear();
     pair.verdict = Verdict::unreadable;
     pair.problem = problemOf(error);
   } catch (const std::bad_alloc&) {

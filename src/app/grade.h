@@ -32,6 +32,7 @@ struct GradedPair {
   std::string file;  ///< what was compared with it; "" if missing
   Verdict verdict = Verdict::missing;
   std::string problem;  ///< why it could not be compared; may be several lines
+  std::string cause;    ///< one sentence, if one change of the whole picture explains a failure
   std::string unit;     ///< "levels" or "values"
   int width = 0, height = 0;
   std::vector<double> values;  ///< values of metrics(), in their order; empty if it could not be compared

@@ -221,6 +221,7 @@ std::string rowHtml(const GradedPair& pair) {
   const bool viewable = !pair.testPicture.empty();
   html += viewable ? "<button>" + escaped(pair.name) + "</button>" : escaped(pair.name);
   if (!pair.problem.empty()) html += "<pre>" + escaped(pair.problem) + "</pre>";
+  if (!pair.cause.empty()) html += "<pre>" + escaped(pair.cause) + "</pre>";
   html += "</td><td class=\"pictures\">" + thumbnail("reference", "png", pair.referencePicture, pair.name) +
           thumbnail("test", "png", pair.testPicture, pair.name) +
           thumbnail("heat", "jpeg", pair.heatPicture, pair.name) +

@@ -89,6 +89,8 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"light-blocked", "a light that one object blocks, such as the sun behind a sky",
                 lightBlocked},
       LintCheck{"light-cut", "a light that its flaps or photometric file shut off", lightCut},
+      LintCheck{"light-faces-away", "a panel of light that emits to the side where no object is",
+                lightFacesAway},
       LintCheck{"light-link", "a light or an object that names unknown objects or lights", lightLink},
       LintCheck{"portal", "a portal without light, or in the open", portalUseless},
       LintCheck{"camera-inside", "the camera inside a solid", cameraInside},

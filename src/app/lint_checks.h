@@ -75,6 +75,7 @@ void lightBehindGlass(const LintScene& s, Findings& findings);
 void lightTooWeak(const LintScene& s, Findings& findings);
 void lightBlocked(const LintScene& s, Findings& findings);
 void lightCut(const LintScene& s, Findings& findings);
+void lightFacesAway(const LintScene& s, Findings& findings);
 void lightLink(const LintScene& s, Findings& findings);
 // Light that is not there (lint_unlit.cpp).
 void unlit(const LintScene& s, Findings& findings);

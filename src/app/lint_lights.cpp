@@ -155,6 +155,32 @@ void lightCut(const LintScene& s, Findings& findings) {
   }
 }
 
+void lightFacesAway(const LintScene& s, Findings& findings) {
+  if (s.settings.fog > 0 || s.scene.objects.empty()) return;  // fog itself is lit
+  for (const LightSource& source : s.scene.lights) {
+    const auto* panel = std::get_if<RectangleLight>(&source.light);
+    if (!panel || panel->twoSided || isBlack(panel->color)) continue;
+    const Vec3 across = cross(panel->u, panel->v);
+    if (!(length(across) > 0)) continue;
+    const Vec3 ahead = normalize(across);
+    if (panel->visible && dot(s.world.camera().eye - panel->position, ahead) > 0) continue;  // it is seen
+    const auto isAhead = [&](const Object& object) {
+      const Box3 box = boxAround(object);
+      Real farthest = 0;
+      for (int axis = 0; axis < 3; ++axis)
+        if (ahead[axis] != 0)  // the box may be infinite
+          farthest += ahead[axis] * ((ahead[axis] > 0 ? box.high : box.low)[axis] - panel->position[axis]);
+      return !box.empty() && farthest > 0;
+    };
+    if (std::any_of(s.scene.objects.begin(), s.scene.objects.end(), isAhead)) continue;
+    const auto number = [](Real value) { return toText(std::round(value * 1000) / 1000 + 0.0); };
+    warn(findings, "light-faces-away", source.place,
+         "this light faces away from every object: it emits toward (" + number(ahead.x) + ", " +
+             number(ahead.y) + ", " + number(ahead.z) + "), and no object is on that side",
+         "exchange its u and v, which turns it round; or two_sided = true");
+  }
+}
+
 void lightLink(const LintScene& s, Findings& findings) {
   Messages messages;
   warnOfWrongLinks(s.scene, messages);

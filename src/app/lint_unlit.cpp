@@ -61,6 +61,8 @@ void unlit(const LintScene& s, Findings& findings) {
   const std::string thrown =
       gathers < all ? "; --integrator photon shows the caustics of " + quoted(s, gathers) + " on it" : "";
   const bool isCauseSaid = spotsOnNothing(s, findings);
+  const bool facesAway = std::any_of(findings.begin(), findings.end(),
+                                     [](const LintFinding& f) { return f.check == "light-faces-away"; });
   std::set<std::uint32_t> cases;  // around a light, of which light-inside tells
   for (const LightSource& source : s.scene.lights)
     for (const std::uint32_t around : opaqueAround(s, source.light)) cases.insert(around);
@@ -80,6 +82,7 @@ void unlit(const LintScene& s, Findings& findings) {
       cause = "; it is outside the cone of the spot light";
       hint = "turn a spot light's direction to it, or give it a larger angle";
     } else if (others == 0) {
+      if (facesAway) continue;
       hint = "add a light there";
     } else if (seen.facesAway > blocked) {
       cause = "; it faces away from the lights";
@@ -97,9 +100,9 @@ void unlit(const LintScene& s, Findings& findings) {
 
 /// By the share of the picture, not by its brightest place: a highlight in a black picture is no light.
 void blackPicture(const LintScene& s, Findings& findings) {
-  constexpr std::string_view kCauses[] = {"light-inside", "light-too-weak",       "light-blocked",
-                                          "light-cut",    "camera-inside",        "camera-looks-away",
-                                          "unlit",        "light-reaches-nothing"};
+  constexpr std::string_view kCauses[] = {"light-inside", "light-too-weak",    "light-blocked",
+                                          "light-cut",    "light-faces-away",  "camera-inside",
+                                          "unlit",        "camera-looks-away", "light-reaches-nothing"};
   for (const LintFinding& finding : findings)
     if (std::find(std::begin(kCauses), std::end(kCauses), finding.check) != std::end(kCauses)) return;
   if (const auto found = darkness(s.scene, s.settings, s.world, tracedCells(s.world, s.settings)))

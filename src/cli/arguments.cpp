@@ -166,8 +166,7 @@ class Parser {
         {"--outfile", "did you mean \"--output\"?"},
         {"--verbose", "--log-level debug says more, --quiet less"},
         {"--debug", "--log-level debug says more"},
-        {"--alpha", "pictures have no alpha; --passes writes what a compositor needs, such as depth"},
-        {"--without", "--disable takes one switch away"}};
+        {"--alpha", "pictures have no alpha; --passes writes what a compositor needs, such as depth"}};
     for (const auto& [other, meant] : kOthers)
       if (name == other) hint = meant;
     for (const Flag& flag : flags())

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "app/difference.h"
+#include "app/extensions.h"
 #include "app/studio_flags.h"
 #include "app/texture_edits.h"
 #include "cli/help_parts.h"
@@ -59,6 +60,8 @@ Candidates candidatesOf(const Flag& flag) {
   if (flag.values == "NAME") {  // the name of an extra
     for (const Option& option : options())
       if (!enabledValue(option).empty()) result.words.emplace_back(option.name);
+  } else if (flag.values == "EXTENSION") {
+    result.words = namesToSwitchOff();
   } else if (flag.values == "NAME=VALUE") {
     for (const Option& option : options()) result.words.push_back(std::string(option.name) + "=");
   } else if (flag.values == "METRIC=X" || flag.values == "METRIC,METRIC") {

@@ -1,13 +1,17 @@
-// ray diff A B: how far two pictures are apart, in numbers and as a picture.
+// ray diff A B: how far two pictures are apart, in numbers and as a picture, and the one change of the whole
+// picture that makes B of A, if there is one.
 //
 // Keys of the JSON object: reference, test, width, height (of A), unit ("levels" or "values"), tolerance,
 // means.{reference, test} (of each channel), sameSize, identical, within (the limits), then each metric by
-// name (null when infinite), worst.{x, y}, limits[] of {metric, limit, met}, difference (name of the picture
-// written, or null).
+// name (null when infinite), worst.{x, y}, limits[] of {metric, limit, met}, cause (null if none was found)
+// of {text, turn, channels, curve, inverse, factor, right, down, rmse}, difference (name of the picture
+// written, or null). Parts of the cause that change nothing are null, 1 or 0.
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
+#include "app/diff_cause.h"
 #include "app/difference.h"
 #include "app/json.h"
 #include "base/budget.h"
@@ -66,11 +70,14 @@ void warnOfLevels(const PictureDifference& d, const Arguments& arguments, const 
                    " light: they differ by tone and transfer curves too; compare two of one kind");
 }
 
-std::string diffText(const PictureDifference& d, const Arguments& arguments) {
+using Cause = std::optional<DifferenceCause>;
+
+std::string diffText(const PictureDifference& d, const Cause& cause, const Arguments& arguments) {
   const std::string a = printable(arguments.files[0]), b = printable(arguments.files[1]);
+  const std::string why = cause ? "  cause   " + causeText(*cause, a, b, d.unit()) + "\n" : "";
   if (!d.numbers.sameSize)
     return a + " (" + sizeText(d.reference.picture) + ") and " + b + " (" + sizeText(d.test.picture) +
-           ") differ in size\n";
+           ") differ in size\n" + why;
   const std::string size = " (" + sizeText(d.reference.picture) + ")\n";
   if (d.numbers.identical) return a + " and " + b + " are identical" + size;
   std::string text = a + " and " + b + " differ" + size;
@@ -90,12 +97,28 @@ std::string diffText(const PictureDifference& d, const Arguments& arguments) {
     if (metric.name == "pixels") text += " of pixels differ";
     text += "\n";
   }
+  text += why;
   for (const Limit& limit : arguments.limits)
     text += "  limit " + limitText(limit) + (limit.met(d) ? ": met\n" : ": exceeded\n");
   return text;
 }
 
-std::string diffJson(const PictureDifference& d, const Arguments& arguments) {
+Json causeJson(const Cause& cause, const PictureDifference& d, const Arguments& arguments) {
+  if (!cause) return nullptr;
+  const auto named = [](std::string_view name) { return name.empty() ? Json() : Json(name); };
+  const PictureChange& change = cause->change;
+  return {{"text", causeText(*cause, arguments.files[0], arguments.files[1], d.unit())},
+          {"turn", named(change.turn.text)},
+          {"channels", named(change.channels.text.empty() ? "" : change.channels.name)},
+          {"curve", named(curveName(change.curve))},
+          {"inverse", change.darkens},
+          {"factor", change.factor},
+          {"right", change.right},
+          {"down", change.down},
+          {"rmse", cause->rmse}};
+}
+
+std::string diffJson(const PictureDifference& d, const Cause& cause, const Arguments& arguments) {
   Json json;
   json["reference"] = arguments.files[0];
   json["test"] = arguments.files[1];
@@ -115,6 +138,7 @@ std::string diffJson(const PictureDifference& d, const Arguments& arguments) {
   json["limits"] = Json::list();
   for (const Limit& limit : arguments.limits)
     json["limits"].add({{"metric", limit.metric->name}, {"limit", limit.value}, {"met", limit.met(d)}});
+  json["cause"] = causeJson(cause, d, arguments);
   json["difference"] = nullptr;
   if (!arguments.output.empty() && d.numbers.sameSize) json["difference"] = arguments.output;
   return json.text(2) + "\n";
@@ -144,8 +168,10 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
   const PictureDifference d =
       difference(std::move(reference), std::move(test), {arguments.tolerance, arguments.pixelsPerDegree});
   warnOfLevels(d, arguments, console);
-  printResult(json                        ? diffJson(d, arguments)
-              : arguments.printed.empty() ? diffText(d, arguments)
+  const bool explains = (json || arguments.printed.empty()) && !d.numbers.identical;
+  const Cause cause = explains ? causeOfDifference(d.reference, d.test) : std::nullopt;
+  printResult(json                        ? diffJson(d, cause, arguments)
+              : arguments.printed.empty() ? diffText(d, cause, arguments)
                                           : printed(d, arguments));
   if (!d.numbers.sameSize) return Finding::sizesDiffer;
   if (!arguments.output.empty()) {

@@ -13,6 +13,7 @@
 #include "image/codec.h"
 #include "render/passes.h"
 #include "scene/integrators.h"
+#include "scene/scene_features.h"
 #include "shading/library.h"
 #include "shading/material.h"
 #include "shading/substances.h"
@@ -32,7 +33,7 @@ std::string featuresText() {
     if (option.extra)
       text += featureRow(option.name,
                          std::string(option.help) + "; enabled: " + std::string(enabledValue(option)));
-  text += "extensions, with their examples (docs/features shows each off and on)\n";
+  text += "extensions, with their examples (docs/features shows each off and on; --without NAME)\n";
   for (const Extension& e : extensions()) {
     std::string words(e.adds);
     words += "; scenes/" + std::string(e.scene);
@@ -40,6 +41,11 @@ std::string featuresText() {
     if (!e.on.empty()) words += "; on: " + std::string(e.on);
     text += featureRow(e.name, words);
   }
+  text += "parts of scenes (--without NAME shows the scene without them)\n";
+  for (const SceneFeatureRow& part : sceneFeatures())
+    if (!part.scene.empty())
+      text += featureRow(part.name,
+                         "without it: " + std::string(part.without) + "; scenes/" + std::string(part.scene));
   text += "integrators\n";
   for (const IntegratorRow& integrator : integrators()) text += featureRow(integrator.name, integrator.help);
   text += "passes (--passes NAME,NAME)\n";

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/extensions.h"
 #include "base/text.h"
 #include "cli/completion.h"
 #include "cli/manual.h"
@@ -71,6 +72,17 @@ void enable(Arguments& arguments, std::string_view name) {
 void disable(Arguments& arguments, std::string_view name) {
   const Option& option = extraNamed("disable", name);
   choose(arguments, name, option.kind == Option::Kind::boolean ? "off" : option.get(Settings{}));
+}
+
+/// Adds to what was switched off before; the scene's own list is replaced.
+void without(Arguments& arguments, std::string_view name) {
+  constexpr std::string_view kOff = "switched-off";
+  for (const Choice& choice : choicesWithout(name)) {
+    const auto before = std::find_if(arguments.choices.rbegin(), arguments.choices.rend(),
+                                     [&](const Choice& c) { return c.option == kOff; });
+    const bool adds = choice.option == kOff && before != arguments.choices.rend() && before->value != "none";
+    choose(arguments, choice.option, (adds ? before->value + "," : "") + choice.value);
+  }
 }
 
 void set(Arguments& arguments, std::string_view value) {
@@ -206,6 +218,11 @@ std::span<const Flag> flags() {
       Flag{"enable", 0, Takes::value, "NAME", "", kOfScenes, true,
            "switch an extra on, with a useful value (ray features lists them)", enable},
       Flag{"disable", 0, Takes::value, "NAME", "", kOfScenes, true, "switch an extra off", disable},
+      Flag{"without", 0, Takes::value, "EXTENSION", "", kOfScenes, true,
+           "switch an extension off, also one that the scene itself asks for: media, spot, bump, ward and "
+           "others "
+           "(ray features lists them); may be repeated",
+           without},
       Flag{"set", 0, Takes::value, "NAME=VALUE", "", kOfScenes, false, "give any option a value", set},
       Flag{"stats", 0, Takes::optional, "table|json", "table", kRender, true,
            "count rays, tests and time: a table on stderr, or JSON on stdout",

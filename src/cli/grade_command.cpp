@@ -1,8 +1,8 @@
 // ray grade DIR --reference DIR: a table of all pairs, worst first, and a page to look at.
 //
 // Keys of the JSON object: folder, reference, passed, stopped (or null), pairs[] of {name, file, verdict,
-// problem, unit, width, height, then each metric by name, null where it is infinite or there is none},
-// extra[], page (or null).
+// problem, cause (a sentence, or ""), unit, width, height, then each metric by name, null where it is
+// infinite or there is none}, extra[], page (or null).
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -79,9 +79,11 @@ std::string gradesText(const Grades& grades) {
     rows.push_back(std::move(row));
   }
   std::string text = tableText(rows);
-  for (const GradedPair& pair : grades.pairs)
+  for (const GradedPair& pair : grades.pairs) {
     if (!pair.problem.empty())
       text += pair.name + ": " + pair.problem.substr(0, pair.problem.find('\n')) + "\n";
+    if (!pair.cause.empty()) text += pair.name + ": " + pair.cause + "\n";
+  }
   for (const std::string& file : grades.extra) text += file + ": has no reference\n";
   return text + std::to_string(grades.passed) + " of " + std::to_string(grades.pairs.size()) +
          " within the limits\n";
@@ -96,9 +98,9 @@ std::string gradesJson(const Arguments& arguments, const Grades& grades) {
   if (!grades.stopped.empty()) json["stopped"] = grades.stopped;
   json["pairs"] = Json::list();
   for (const GradedPair& pair : grades.pairs) {
-    Json one{{"name", pair.name},       {"file", pair.file}, {"verdict", verdictText(pair.verdict)},
-             {"problem", pair.problem}, {"unit", pair.unit}, {"width", pair.width},
-             {"height", pair.height}};
+    Json one{{"name", pair.name},       {"file", pair.file},    {"verdict", verdictText(pair.verdict)},
+             {"problem", pair.problem}, {"cause", pair.cause},  {"unit", pair.unit},
+             {"width", pair.width},     {"height", pair.height}};
     for (std::size_t i = 0; i < metrics().size(); ++i) {
       const std::string name(metrics()[i].name);
       one[name] = nullptr;

@@ -11,6 +11,7 @@
 #include "render/number_range.h"
 #include "render/world.h"
 #include "scene/displacement.h"
+#include "scene/scene_features.h"
 #include "shading/materials/subsurface.h"
 
 namespace trace {
@@ -55,12 +56,9 @@ std::vector<Material> shownAs(std::vector<Material> materials, const Settings& s
       if (textureOf(material.textures, "displacement")) material.displacement = 0;
       material.textures.clear();
     }
-    if (settings.models == Models::asSaid || material.model.is<Phong>()) continue;
-    const Phong nearest = phongOf(material.model);
-    for (FieldTexture& t : material.textures)
-      if (t.field == kColor) t.field = kDiffuse;
-    material = withModel(std::move(material), Phong{});
-    material.model = nearest;
+    material = withoutFeatures(std::move(material), settings.switchedOff);
+    if (settings.models == Models::phong && !material.model.is<Phong>())
+      material = asPhong(std::move(material));
   }
   return materials;
 }

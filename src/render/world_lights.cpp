@@ -5,6 +5,7 @@
 #include "base/match.h"
 #include "render/number_range.h"
 #include "render/world.h"
+#include "scene/scene_features.h"
 
 namespace trace {
 namespace {
@@ -49,7 +50,7 @@ void World::addLights(const Scene& scene, const Settings& settings, Messages& me
       leftOut.add(source.place);
       continue;
     }
-    match(source.light,
+    match(lightWithout(source.light, settings.switchedOff).value_or(source.light),
           Overloaded{[&](const AmbientLight& light) { ambient_ += light.color * settings.ambientScale; },
                      [&](const Portal& portal) { portals_.push_back(portal); },
                      [&](const auto& light) {

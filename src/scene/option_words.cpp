@@ -64,6 +64,7 @@ constexpr std::array kWordRows{
     Row{"textures", "pictures bump pattern"},
     Row{"outlines", "cartoon cel toon silhouette edges lines ink"},
     Row{"omit", "hide exclude"},
+    Row{"switched-off", "without extension"},
     Row{"backdrop", "background image plate picture wallpaper"},
     Row{"environment", "background image sky skybox cubemap hdri panorama reflection map"},
     Row{"environment-kind", "cubemap equirectangular probe cross"},

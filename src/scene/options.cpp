@@ -15,6 +15,7 @@
 #include "scene/integrators.h"
 #include "scene/option_words.h"
 #include "scene/quality.h"
+#include "scene/scene_features.h"
 
 namespace trace {
 namespace {
@@ -116,6 +117,8 @@ std::span<const std::string_view> namesOf() {
     return shapeNames();
   else if constexpr (std::is_same_v<Enum, IntegratorKind>)
     return integratorNames();
+  else if constexpr (std::is_same_v<Enum, SceneFeature>)
+    return sceneFeatureNames();
   else
     return kNames<Enum>;
 }
@@ -770,6 +773,14 @@ const std::array kOptions{
                           .help = "leave out all objects of these kinds",
                           .source = "British Columbia, whose own pictures lack the conics",
                           .repeats = Repeats::world}),
+    row<&Settings::switchedOff>(
+        {.name = "switched-off",
+         .group = "Tracing",
+         .help = "show the scene without these extensions: no media, bumps, displacement or holes, point "
+                 "lights in "
+                 "place of these lights, Phong's model in place of these; --without NAME adds one",
+         .source = "University of Washington 2015, which demands a switch for each",
+         .repeats = Repeats::world}),
     row<&Settings::projection>(
         {.name = "projection",
          .group = "Camera",

@@ -48,6 +48,9 @@ enum class Quality { none, draft, good, final };
 /// A type of the list of shapes, by its number there.
 enum class ShapeKind {};
 
+/// A part of scenes that can be switched off, by its number in the table of scene_features.h.
+enum class SceneFeature {};
+
 /// A picture beside the picture: a row of render/passes.cpp.
 enum class Pass { depth, normal, id, uv, position, samples, albedo, occlusion, change };
 /// The distance in the pass "depth": along the view direction, or along the ray.
@@ -151,6 +154,7 @@ struct Settings {
   bool textures = true;
   Real outlines = 0;
   EnumSet<ShapeKind> omit{};
+  EnumSet<SceneFeature> switchedOff{};
   // Background
   FilePath backdrop{};
   FilePath environment{};

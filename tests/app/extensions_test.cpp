@@ -7,7 +7,9 @@
 #include <filesystem>
 
 #include "app/session.h"
+#include "base/error.h"
 #include "base/file.h"
+#include "scene/scene_features.h"
 #include "shading/material.h"
 #include "support/paths.h"
 #include "support/small_renders.h"
@@ -51,6 +53,57 @@ TEST(Extensions, EachChangesThePictureOfItsExample) {
     if (isPart) {
       EXPECT_EQ(off.width, 200) << "the region alone";
     }
+  }
+}
+
+/// The picture of the example with the extension on, small, and with `more` above all.
+Picture smallPictureOf(const Extension& e, const std::vector<Choice>& more) {
+  Session said;
+  said.open(kExampleFolder + "/" + std::string(e.scene), choicesIn(e.on));
+  std::vector<Choice> choices = smallChoices(said.settings(), 24, 64);
+  if (e.view.find("--region") != e.view.npos) choices = {{"spp", "1", {}}};
+  choices.insert(choices.end(), more.begin(), more.end());
+  return pictureOf(e, true, kExampleFolder, choices);
+}
+
+TEST(Extensions, EachCanBeSwitchedOffWhateverTheSceneSays) {
+  for (const Extension& e : extensions()) {
+    SCOPED_TRACE(e.name);
+    const std::vector<Choice> off = choicesWithout(e.name);
+    ASSERT_FALSE(off.empty());
+    EXPECT_NE(smallPictureOf(e, {}), smallPictureOf(e, off));
+  }
+}
+
+TEST(Extensions, EachPartOfScenesCanBeSwitchedOffAlone) {
+  for (const SceneFeatureRow& part : sceneFeatures()) {
+    SCOPED_TRACE(part.name);
+    const std::vector<Choice> off = choicesWithout(part.name);
+    EXPECT_EQ(off, (std::vector<Choice>{{"switched-off", std::string(part.name), {}}}));
+    if (part.scene.empty()) {
+      EXPECT_TRUE(listed(part.name)) << "its example is that of the extension";
+      continue;
+    }
+    const Extension example{part.name, "", part.scene, "", "", ""};
+    EXPECT_NE(smallPictureOf(example, {}), smallPictureOf(example, off));
+  }
+  EXPECT_LE(sceneFeatures().size(), 64u) << "a set holds no more";
+}
+
+TEST(Extensions, AreSwitchedOffByNamesAsPeopleTypeThem) {
+  EXPECT_EQ(choicesWithout("media"), choicesWithout("medium"));
+  EXPECT_EQ(choicesWithout("IES"), choicesWithout("goniometric_light"));
+  EXPECT_EQ(choicesWithout("Warn"), choicesWithout("warn-light"));
+  EXPECT_EQ(choicesWithout("thin-film"), choicesWithout("thin film"));
+  EXPECT_EQ(choicesWithout("aperture"), (std::vector<Choice>{{"aperture", "0", {}}}));
+  EXPECT_EQ(choicesWithout("denoise"), (std::vector<Choice>{{"denoise", "off", {}}}));
+  for (const std::string& name : namesToSwitchOff()) EXPECT_FALSE(choicesWithout(name).empty()) << name;
+  try {
+    choicesWithout("apperture");
+    ADD_FAILURE() << "an unknown name was taken";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("found \"apperture\""), std::string::npos) << error.what();
+    EXPECT_NE(error.messages().front().hint.find("aperture"), std::string::npos);
   }
 }
 

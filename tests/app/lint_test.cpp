@@ -344,6 +344,24 @@ TEST(Lint, ASpotLightMayShineOnNothing) {
       "cone of the spot light\n");
 }
 
+TEST(Lint, APanelMayFaceAwayFromEveryObject) {
+  const auto checks = [](const std::string& panel, const std::string& rest = "") {
+    return checksOf(kCamera + "rectangle_light { position = (0, 5, 0); u = (1, 0, 0); " + panel +
+                    (panel.find("color") < panel.size() ? " }\n" : " color = (3, 3, 3); }\n") + kBall + rest);
+  };
+  const Checks away{"light-faces-away"};
+  EXPECT_EQ(checks("v = (0, 0, 1);"), Checks{}) << "it emits downward";
+  EXPECT_EQ(checks("v = (0, 0, -1);"), away) << "and is the only finding: it is the cause of the black ball";
+  EXPECT_EQ(checks("v = (0, 0, -1);", kSun), away) << "also where another light makes the picture";
+  EXPECT_EQ(checks("v = (0, 0, -1);", "ambient_light { color = (0.3, 0.3, 0.3); }\n"), away);
+  EXPECT_EQ(checks("v = (0, 0, -1); two_sided = true;"), Checks{});
+  EXPECT_EQ(checks("v = (0, 0, -1); color = (0, 0, 0);", kSun), Checks{}) << "it is off";
+  EXPECT_EQ(checks("v = (0, 0, -1);", kSun + "translate(0, 9, 0, sphere { name = \"high\"; material = { "
+                                             "diffuse = (1, 1, 1); } })\n"),
+            Checks{})
+      << "an object is ahead, though not in the picture";
+}
+
 TEST(Lint, ObjectsMayNameLightsThatAreNotThere) {
   const Folder folder;
   const auto said = [&](const std::string& links) {

@@ -274,6 +274,7 @@ TEST_F(Cli, WrongUsageIs2) {
   refused({"white.ray", "--set", "width"}, "expected name=value");
   refused({"white.ray", "--set", "widht=3"}, "did you mean \"width\"?");
   refused({"white.ray", "--enable", "width"}, "expected one of");
+  refused({"white.ray", "--without", "aperturr"}, "did you mean \"aperture\"?");
   refused({"white.ray", "--progress=yes"}, "expected auto | bar | plain | json | none");
   refused({"white.ray", "a.png", "b.png"}, "found also \"b.png\"");
   refused({"white.ray", "a.png", "-o", "b.png"}, "two names");
@@ -568,6 +569,23 @@ TEST_F(Cli, Bench) {
   EXPECT_TRUE(contains(run({"bench", "odd.ray", "-w", "8"}).err, "odd.ray:5:"));
 }
 
+TEST_F(Cli, WithoutSwitchesOffWhatTheSceneAsksFor) {
+  write("blurred.ray",
+        std::string(kWhite) + "settings { aperture = 0.1; fog = 0.5; switched-off = bump; }\n");
+  const auto settings = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"blurred.ray", "-o", "out.png", "-w", "8", "--stats=json"});
+    return json::parse(run(words).out)["settings"];
+  };
+  const json all = settings({});
+  EXPECT_EQ(all["aperture"], "0.1");
+  EXPECT_EQ(all["switched-off"], "bump");
+  const json without = settings({"--without", "aperture", "--without=media", "--without", "Spot"});
+  EXPECT_FALSE(without.contains("aperture")) << "it has its default";
+  EXPECT_EQ(without["fog"], "0.5") << "it stays";
+  EXPECT_EQ(without["switched-off"], "medium,spot_light") << "those of the command line add up";
+  EXPECT_FALSE(settings({"--without", "spot", "--switched-off", "none"}).contains("switched-off"));
+}
+
 TEST_F(Cli, InfoTellsWhereOptionsComeFrom) {
   write("set.ray", std::string(kWhite) + "settings { like = ut; glass = per-crossing; }\n");
   const json facts = json::parse(run({"info", "set.ray", "--format=json", "--air-index", "1.5"}).out);
@@ -589,6 +607,8 @@ TEST_F(Cli, Features) {
     }
   for (const PictureFormat& format : pictureFormats())
     EXPECT_TRUE(contains(r.out, std::string(format.suffixes[0])));
+  EXPECT_TRUE(contains(r.out, "\n  goniometric_light  without it: a point light; scenes/studio-lights.ray\n"))
+      << r.out;
 }
 
 TEST_F(Cli, OptionsPageIsUpToDate) {

@@ -97,6 +97,81 @@ TEST_F(Diff, MeansAreTold) {
   EXPECT_NEAR(both["test"][2].get<double>(), 153, 1e-9);
 }
 
+/// The picture of a scene of the repository, as our own renderer makes it.
+class DiffCause : public Diff {
+ protected:
+  void render(const std::string& name, std::vector<std::string> options = {}) const {
+    options.insert(options.begin(),
+                   {sourceFolder() + "/scenes/materials.ray", "-o", name, "-w", "96", "--spp", "1"});
+    const Run r = run(options);
+    ASSERT_EQ(r.code, 0) << r.err;
+  }
+};
+
+TEST_F(DiffCause, OfPixelsSampledAtTheirCornersIsAShiftOfHalfAPixel) {
+  render("center.png", {"--pixel-position", "center"});
+  render("corner.png", {"--pixel-position", "corner"});
+  const Run r = run({"diff", "corner.png", "center.png"});
+  EXPECT_EQ(r.code, 1);
+  EXPECT_TRUE(contains(
+      r.out, "cause   center.png is corner.png moved half a pixel to the left and half a pixel down"))
+      << r.out;
+  const json cause = json::parse(run({"diff", "corner.png", "center.png", "--format", "json"}).out)["cause"];
+  EXPECT_EQ(cause["right"], -0.5);
+  EXPECT_EQ(cause["down"], 0.5);
+  EXPECT_EQ(cause["turn"], nullptr);
+  EXPECT_EQ(cause["channels"], nullptr);
+  EXPECT_EQ(cause["curve"], nullptr);
+  EXPECT_TRUE(contains(cause["text"].get<std::string>(), "center.png is corner.png moved"));
+}
+
+TEST_F(DiffCause, IsNamedInTextAndJsonAndByGrade) {
+  render("right.png");
+  Picture right = readPicture(path("right.png")), wrong = right;
+  for (int y = 0; y < right.height; ++y)
+    for (int x = 0; x < right.width; ++x) {
+      const Color& c = right.at(x, right.height - 1 - y);
+      wrong.at(x, y) = Color(c.b, c.g, c.r);
+    }
+  writePicture(path("wrong.png"), wrong);
+  const Run r = run({"diff", "right.png", "wrong.png"});
+  EXPECT_EQ(r.code, 1) << "a cause is no excuse";
+  EXPECT_TRUE(
+      contains(r.out,
+               "\n  cause   wrong.png is right.png upside down and with red and blue exchanged; nothing "
+               "else differs"))
+      << r.out;
+  const json both = json::parse(run({"diff", "right.png", "wrong.png", "--format", "json"}).out);
+  EXPECT_EQ(both["cause"]["turn"], "upside down");
+  EXPECT_EQ(both["cause"]["channels"], "BGR");
+  EXPECT_EQ(both["cause"]["factor"], 1);
+  EXPECT_EQ(both["cause"]["rmse"], 0);
+  EXPECT_EQ(json::parse(run({"diff", "right.png", "a.png", "--format", "json"}).out)["cause"], nullptr);
+  EXPECT_FALSE(contains(run({"diff", "right.png", "right.png"}).out, "cause"));
+
+  for (const char* folder : {"ref", "out"}) std::filesystem::create_directories(path(folder));
+  writePicture(path("ref/x.png"), right);
+  writePicture(path("out/x.png"), wrong);
+  const Run graded = run({"grade", "out", "--reference", "ref", "-o", "page.html"});
+  const std::string cause = "the picture is the reference upside down and with red and blue exchanged";
+  EXPECT_TRUE(contains(graded.out, "\nx.png: " + cause)) << graded.out;
+  EXPECT_TRUE(contains(readFile(path("page.html")), cause));
+}
+
+TEST_F(DiffCause, OfSizesThatAreExchangedIsATurn) {
+  render("wide.png");
+  const Picture wide = readPicture(path("wide.png"));
+  Picture tall(wide.height, wide.width);
+  for (int y = 0; y < tall.height; ++y)
+    for (int x = 0; x < tall.width; ++x) tall.at(x, y) = wide.at(y, x);
+  writePicture(path("tall.png"), tall);
+  const Run r = run({"diff", "wide.png", "tall.png"});
+  EXPECT_EQ(r.code, 2);
+  EXPECT_TRUE(
+      contains(r.out, "differ in size\n  cause   tall.png is wide.png with rows and columns exchanged"))
+      << r.out;
+}
+
 TEST_F(Diff, LevelsBesideLightGetAWarning) {
   picture("light.exr", 0.5);
   const Run mixed = run({"diff", "light.exr", "a.png"});

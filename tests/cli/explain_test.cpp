@@ -56,6 +56,57 @@ TEST_F(Explain, TextTellsEveryRayAndThatTheSumIsThePicture) {
   EXPECT_LE(longest, 100u);
 }
 
+TEST_F(Explain, TermsStandInTheOrderOfTheirSize) {
+  // Three lights: the second is the brightest; the highlight of the third is far away and its diffuse part 0.
+  const std::string scene = folder / "terms.ray";
+  writeFile(scene, R"(SBT-raytracer 1.0
+camera { position = (0, 0, 5); viewdir = (0, 0, -1); updir = (0, 1, 0); }
+ambient_light { color = (0.1, 0.1, 0.1); }
+directional_light { name = "weak"; direction = (0, 0, -1); color = (0.2, 0.2, 0.2); }
+directional_light { name = "strong"; direction = (0, 0, -1); color = (0.9, 0.9, 0.9); }
+directional_light { name = "speck"; direction = (0, 0, -1); color = (1e-45, 1e-45, 1e-45); }
+scale(9, square { material = { ambient = (1, 1, 1); diffuse = (0.5, 0.5, 0.5); } })
+)");
+  const std::vector<std::string> command{"explain", scene, "-w", "9", "--pixel", "4,4"};
+  const std::string text = out(command);
+  std::size_t last = 0;
+  for (const char* words : {"+ strong 0.45", "+ ambient 0.1", "+ weak 0.1", "+ emissive 0",
+                            "+ 1 term below the last digit of the sum, of #3", "= 0.65\n"}) {
+    const std::size_t at = text.find(words);
+    ASSERT_NE(at, std::string::npos) << words << "\n" << text;
+    EXPECT_GT(at, last) << words << "\n" << text;
+    last = at;
+  }
+  EXPECT_EQ(text.find("+ speck"), std::string::npos) << text;
+  EXPECT_NE(text.find("#3 shadow ray to speck"), std::string::npos) << "its ray is listed";
+  EXPECT_NE(text.find("sum to the picture's pixel, bit for bit"), std::string::npos);
+  // JSON has every term, in the order of the equation.
+  std::vector<std::string> words = command;
+  words.insert(words.end(), {"--format", "json"});
+  const json ray = json::parse(out(words))["rays"][0];
+  std::vector<double> values;
+  for (const json& term : ray["terms"]) values.push_back(term["factor"][0].get<double>());
+  ASSERT_EQ(values.size(), 5u) << ray;
+  EXPECT_EQ(ray["terms"][0]["kind"], "emissive");
+  EXPECT_EQ(ray["terms"][1]["kind"], "ambient");
+  EXPECT_LT(values[2], values[3]);
+  EXPECT_NEAR(values[4], 0.5e-45, 1e-47);
+}
+
+TEST_F(Explain, ATermOfARayWithoutOthersStaysHoweverSmall) {
+  const std::string scene = folder / "dim.ray";
+  writeFile(scene, R"(SBT-raytracer 1.0
+camera { position = (0, 0, 5); viewdir = (0, 0, -1); updir = (0, 1, 0); }
+directional_light { name = "speck"; direction = (0, 0, -1); color = (1e-45, 1e-45, 1e-45); }
+directional_light { name = "behind"; direction = (0, 0, 1); color = (1, 1, 1); }
+scale(9, square { material = { diffuse = (0.5, 0.5, 0.5); } })
+)");
+  const std::string text = out({"explain", scene, "-w", "9", "--pixel", "4,4"});
+  EXPECT_NE(text.find("+ speck 5e-46"), std::string::npos) << text;
+  EXPECT_NE(text.find("+ behind 0; faces away"), std::string::npos) << "a zero with a reason stays\n" << text;
+  EXPECT_EQ(text.find("below the last digit"), std::string::npos) << text;
+}
+
 TEST_F(Explain, DeepRaysStandAtOneMarginAndNameTheRayThatSentThem) {
   const std::string scene = folder / "milk.ray";
   writeFile(scene, R"(SBT-raytracer 1.0

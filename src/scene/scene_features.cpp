@@ -1,0 +1,115 @@
+// The parts of scenes that can be switched off: see scene_features.h. Used by the options, which name them, and when a
+// World is compiled. Source: the course of the University of Washington, 2015, which demands a switch for
+// each extension.
+#include "scene/scene_features.h"
+
+#include <algorithm>
+#include <iterator>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/match.h"
+#include "shading/medium.h"
+
+namespace trace {
+namespace {
+
+constexpr std::string_view kMedium = "medium", kBump = "bump", kDisplacement = "displacement";
+
+constexpr SceneFeatureRow kParts[] = {
+    {kMedium, "nothing is inside of objects", "mist.ray"},
+    {kBump, "surfaces are smooth", "bumps.ray"},
+    {kDisplacement, "meshes keep their points", "displacement.ray"},
+    {kOpacity, "surfaces have no holes", "holes.ray"},
+    {SpotLight::kKeyword, "a point light", "caustics.ray"},
+    {WarnLight::kKeyword, "a point light", "studio-lights.ray"},
+    {GoniometricLight::kKeyword, "a point light", "studio-lights.ray"},
+    {ProjectorLight::kKeyword, "a point light", "studio-lights.ray"},
+};
+
+bool isOff(std::string_view name, const EnumSet<SceneFeature>& off) {
+  const std::span<const std::string_view> names = sceneFeatureNames();
+  const auto found = std::find(names.begin(), names.end(), name);
+  return found != names.end() && off.has(static_cast<SceneFeature>(found - names.begin()));
+}
+
+}  // namespace
+
+std::span<const SceneFeatureRow> sceneFeatures() {
+  static const std::vector<SceneFeatureRow> kAll = [] {
+    std::vector<SceneFeatureRow> all(std::begin(kParts), std::end(kParts));
+    for (const std::string_view model : modelKeywords())
+      if (model != Phong::kKeyword) all.push_back({model, "Phong's closest approximation", ""});
+    return all;
+  }();
+  return kAll;
+}
+
+std::span<const std::string_view> sceneFeatureNames() {
+  static const std::vector<std::string_view> kAll = [] {
+    std::vector<std::string_view> all;
+    for (const SceneFeatureRow& row : sceneFeatures()) all.push_back(row.name);
+    return all;
+  }();
+  return kAll;
+}
+
+Material asPhong(Material material) {
+  const Phong nearest = phongOf(material.model);
+  for (FieldTexture& texture : material.textures)
+    if (texture.field == kColor) texture.field = kDiffuse;
+  material = withModel(std::move(material), Phong{});
+  material.model = nearest;
+  return material;
+}
+
+Material withoutFeatures(Material material, const EnumSet<SceneFeature>& off) {
+  if (off.empty()) return material;
+  const auto dropTexture = [&](std::string_view field) {
+    std::erase_if(material.textures, [&](const FieldTexture& texture) {
+      return texture.field == field || (field == kMedium && MediumModel::has(texture.field));
+    });
+  };
+  if (isOff(kMedium, off)) {
+    material.mediumDensity = 0;
+    dropTexture(kMedium);
+  }
+  if (isOff(kBump, off)) {
+    material.bump = 0;
+    dropTexture(kBump);
+  }
+  if (isOff(kDisplacement, off)) {
+    material.displacement = 0;
+    dropTexture(kDisplacement);
+  }
+  if (isOff(kOpacity, off)) {
+    material.opacity = 1;
+    dropTexture(kOpacity);
+  }
+  return isOff(material.model.keyword(), off) ? asPhong(std::move(material)) : material;
+}
+
+std::optional<Light> lightWithout(const Light& light, const EnumSet<SceneFeature>& off) {
+  if (off.empty()) return {};
+  return match(light, [&](const auto& l) -> std::optional<Light> {
+    using L = std::decay_t<decltype(l)>;
+    if constexpr (requires { l.quadratic; } && !std::is_same_v<L, PointLight>) {
+      if (!isOff(L::kKeyword, off)) return {};
+      PointLight point;
+      point.position = l.position;
+      point.color = l.color;
+      point.constant = l.constant;
+      point.linear = l.linear;
+      point.quadratic = l.quadratic;
+      point.radius = l.radius;
+      if constexpr (requires { l.perCandela; })
+        if (l.perCandela > 0 && l.file.data) point.color *= Color(l.perCandela * l.file.data->brightest());
+      return Light(point);
+    } else {
+      return {};
+    }
+  });
+}
+
+}  // namespace trace
