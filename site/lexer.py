@@ -1,6 +1,7 @@
 """Colours of scene files, and anchors as GitHub makes them: a hook of MkDocs."""
 import re
 import sys
+import types
 
 import pygments.lexers
 from pygments.lexer import RegexLexer, bygroups
@@ -37,8 +38,9 @@ def anchor(heading, separator):
 
 
 def on_config(config):
-    sys.modules["trace_lexer"] = sys.modules[__name__] if __name__ in sys.modules else type(sys)("trace_lexer")
-    sys.modules["trace_lexer"].RayLexer = RayLexer
-    pygments.lexers.LEXERS["RayLexer"] = ("trace_lexer", RayLexer.name, tuple(RayLexer.aliases), (), ())
+    module = types.ModuleType("trace_lexer")  # MkDocs gives a hook no name by which Pygments could import it
+    module.RayLexer, module.__all__ = RayLexer, ["RayLexer"]
+    sys.modules[module.__name__] = module
+    pygments.lexers.LEXERS["RayLexer"] = (module.__name__, RayLexer.name, tuple(RayLexer.aliases), (), ())
     config["mdx_configs"]["toc"]["slugify"] = anchor
     return config

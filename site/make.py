@@ -125,7 +125,7 @@ class Stage:
 
         def triple(match):
             names = zip(("off", "on", "difference"), match.groups())
-            return '<div class="triple">' + "".join(f'<img alt="{n}" src="{s}">' for n, s in names) + "</div>\n"
+            return '<div class="triple">' + "".join(f'<img alt="{n}" loading="lazy" src="{s}">' for n, s in names) + "</div>\n"
 
         def framed(match):
             name = Path(match[2]).stem
@@ -215,11 +215,24 @@ def configuration() -> Path:
 def searchable_from_a_folder():
     """The index of the search as a script, which a browser loads without a server too."""
     index = json.loads((SITE / "search/search_index.json").read_text())
-    for entry in index["docs"]:  # of a scene, its words alone
-        if entry["location"].startswith(("scenes/", "include/", "examples/cpp/")):
-            entry["text"] = html.escape(" ".join(re.findall(r"//+ ?(.*)", html.unescape(entry["text"]))))
+    for entry in index["docs"]:
+        shown = ROOT / entry["location"].partition("#")[0].removesuffix(".html")
+        if shown.suffix in LANGUAGES and shown.is_file():
+            entry["text"] = html.escape(opening(shown.read_text()))
     (SITE / "search/search_index.js").write_text(f"traceSearchIndex({json.dumps(index)})\n")
     (SITE / "search/search_index.json").unlink()
+
+
+def opening(source: str) -> str:
+    """The comment that a source file or a scene begins with: what one would search it by."""
+    words = []
+    for line in source.splitlines():
+        comment = re.match(r"\s*//+ ?(.*)", line)
+        if comment:
+            words.append(comment[1])
+        elif words:
+            break
+    return " ".join(words)
 
 
 def main() -> int:
