@@ -11,7 +11,7 @@ int main() try {
 
   for (int percent : {5, 20, 60}) {
     ball.material().set("roughness", percent / 100.0);
-    traceray::Render picture = scene.render({{"width", 96}, {"quality", "draft"}});
+    traceray::Render picture = scene.render({{"width", 160}, {"quality", "draft"}});
     std::cout << picture.write("gold-" + std::to_string(percent) + ".png") << "\n";
   }
 } catch (const traceray::Error& error) {
