@@ -11,7 +11,7 @@ set(withinProgram libcli11-dev libstb-dev nlohmann-json3-dev libtinyobjloader-de
 set(withinStudio ${withinProgram} libimgui-dev)
 set(withinPython pybind11-dev)
 
-# What lintian may find: scripts of CPack that call ldconfig beside Debian's trigger, and a file for pkg-config in /usr/lib,
+# Finds of lintian that are expected: scripts of CPack that call ldconfig beside Debian's trigger, and a file for pkg-config in /usr/lib,
 # where compilers for other processors do not look.
 set(knownOf_library maintscript-calls-ldconfig)
 set(knownOf_dev pkg-config-unavailable-for-cross-compilation)
