@@ -86,7 +86,7 @@ void unlit(const LintScene& s, Findings& findings) {
       hint = "add a light there";
     } else if (seen.facesAway > blocked) {
       cause = "; it faces away from the lights";
-      hint = "move a light to the visible side or turn its faces round";
+      hint = "move a light to the visible side, or sides = both in its material";
     } else {
       cause = most->first == object ? "; it stands in its own light"
                                     : "; it is blocked by " + quoted(s, most->first);

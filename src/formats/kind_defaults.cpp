@@ -103,7 +103,7 @@ void addCamera(Scene& scene, const KindGiven& given, const Box3& seen) {
   scene.kindDefaults.emplace_back("a camera so far away that it shows all objects");
 }
 
-/// Meshes without normals look round where their faces meet at less than this, and have no back.
+/// Meshes without normals look round where their faces meet at less than this.
 constexpr Real kCrease = 40 * kPi / 180;
 
 void smoothMeshes(Scene& scene) {
@@ -120,11 +120,6 @@ void smoothMeshes(Scene& scene) {
     }
     object.shape = found->second;
   }
-}
-
-void showBothSides(Scene& scene) {
-  for (const Object& object : scene.objects)
-    if (object.shape.is<Mesh>()) scene.materials[object.material].sides = ShadedSides::both;
 }
 
 /// A light that fades: its colour is what falls on a white surface at the distance of what is looked at.
@@ -223,10 +218,8 @@ Box3 boundsOfInterest(const Scene& scene) {
 void addKindDefaults(Scene& scene, const KindGiven& given, const Place& place) {
   const Box3 seen = boundsOfInterest(scene);
   addCamera(scene, given, seen);
-  for (Material& material : scene.materials)
-    if (material == Material{}) material = plainMaterial();
+  for (Material& material : scene.materials) completeMaterial(material);
   smoothMeshes(scene);
-  showBothSides(scene);
   letLightsReach(scene, given, seen);
   if (!givesLight(scene)) {
     constexpr Real kSunSize = 3;
