@@ -9,10 +9,12 @@
 #include "base/budget.h"
 #include "base/match.h"
 #include "base/text.h"
+#include "formats/kind_defaults.h"
 #include "geometry/traced.h"
 #include "image/development.h"
 #include "image/srgb.h"
 #include "render/integrator.h"
+#include "render/lamps.h"
 #include "render/passes.h"
 #include "render/render.h"
 #include "scene/integrators.h"
@@ -195,7 +197,7 @@ std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, 
   for (std::size_t i = 0; i < lit.base.size(); ++i) lit.added[i] = lit.added[i] + lit.base[i] * -1;
   const auto factor = factorFor(lit, developmentOf(settings));
   if (!factor) return {};
-  const bool none = scene.lights.empty();
+  const bool none = scene.lights.empty() && !shines(scene);
   const bool ray = scene.format == "ray";
   return Cure{
       Place{.file = scene.file}, none ? "; the scene has no light" : "; no light reaches the visible objects",
@@ -219,10 +221,26 @@ std::optional<Cure> lookAround(const Scene& scene) {
                   : "turn the camera to " + rounded(all.center()) + ", the middle of the objects"};
 }
 
+/// An emissive object whose shape is not sampled as a light: scattered rays find it by chance alone.
+std::optional<Cure> unsampledEmitter(const Scene& scene, const World& world) {
+  if (!scene.lights.empty()) return {};
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (!glows(scene.materials[object.material]) || Lamps::canSample(world, i)) continue;
+    return Cure{
+        object.place,
+        "; rays find this emissive " + std::string(object.shape.keyword()) +
+            " by chance alone, since its shape is not sampled as a light",
+        "squares, meshes, and spheres with the same scale along all axes are; or put a point_light there"};
+  }
+  return {};
+}
+
 std::optional<Cure> cureOf(const Scene& scene, const Settings& settings, const World& world,
                            const std::vector<char>& seen) {
   if (std::none_of(seen.begin(), seen.end(), [](char is) { return is != 0; })) return lookAround(scene);
   if (auto cure = strongerLight(scene, settings, world, seen)) return cure;
+  if (auto cure = unsampledEmitter(scene, world)) return cure;
   return lightAtTheEye(scene, settings, world, seen);
 }
 

@@ -67,10 +67,7 @@ LightSource sun(const Camera& camera, Real size) {
 bool givesLight(const Scene& scene) {
   const Background& background = scene.background;
   return !scene.lights.empty() || !(background == Background{}) || isGiven(scene, "environment") ||
-         std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-           const Material& material = scene.materials[object.material];
-           return glows(material) || !isBlack(material.mediumGlows);
-         });
+         shines(scene);
 }
 
 void addCamera(Scene& scene, const KindGiven& given, const Box3& seen) {
@@ -192,6 +189,13 @@ void completeBareMesh(Scene& scene) {
   }
   smoothMeshes(scene);
   addKindChoices(scene, Place{.file = scene.file});
+}
+
+bool shines(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+    const Material& material = scene.materials[object.material];
+    return glows(material) || !isBlack(material.mediumGlows);
+  });
 }
 
 Box3 boundsOfInterest(const Scene& scene) {

@@ -41,10 +41,13 @@ std::vector<Choice> choicesOfRow(const QualityRow& row) {
           choice("integrator", "path")};
 }
 
-/// It is a point, or too small for paths to meet, or rays do not see it.
+/// It is a lamp, which is too small for paths to meet by chance, or rays do not see it.
 bool isMissedByPaths(const Light& light) {
   return match(light, [](const auto& l) {
-    if constexpr (requires { l.visible; }) return !(l.visible && l.hasSize());
+    if constexpr (requires { l.quadratic; })
+      return true;
+    else if constexpr (requires { l.visible; })
+      return !(l.visible && l.hasSize());
     return requires { l.position; }
     || requires { l.direction; };
   });
