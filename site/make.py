@@ -20,6 +20,7 @@ STAGE, SITE = ROOT / "build/site-pages", ROOT / "build/site"
 PAGES_IN = ["docs", "scenes", "examples", "editors"]  # the folders whose pages and pictures are shown
 PICTURES = {".png", ".jpg", ".svg"}
 LINK = re.compile(r"\]\(([^)\s]+)\)")
+LINK_WITH_LABEL = re.compile(r"\[([^\]]+)\]\(([^)#\s]+\.md)\)")
 TRIPLE = re.compile(r"!\[off\]\((.+)\)\n!\[on\]\((.+)\)\n!\[difference\]\((.+)\)\n")
 LANGUAGES = {".h": "cpp", ".cpp": "cpp", ".inc": "ray", ".ray": "ray", ".py": "python", ".sh": "sh", ".json": "json"}
 
@@ -193,9 +194,6 @@ def navigation() -> list:
         nav.append({title: entries})
     nav[-1][title].append({"All pages": "docs/index.md"})
     return nav
-
-
-LINK_WITH_LABEL = re.compile(r"\[([^\]]+)\]\(([^)#\s]+\.md)\)")
 
 
 def capital(text: str) -> str:
