@@ -221,7 +221,7 @@ std::optional<Cure> lookAround(const Scene& scene) {
                   : "turn the camera to " + rounded(all.center()) + ", the middle of the objects"};
 }
 
-/// An emissive object whose shape is not sampled as a light: scattered rays find it by chance alone.
+/// An emissive object whose shape is not sampled as a light: scattered rays find it at random alone.
 std::optional<Cure> unsampledEmitter(const Scene& scene, const World& world) {
   if (!scene.lights.empty()) return {};
   for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
@@ -230,7 +230,7 @@ std::optional<Cure> unsampledEmitter(const Scene& scene, const World& world) {
     return Cure{
         object.place,
         "; rays find this emissive " + std::string(object.shape.keyword()) +
-            " by chance alone, since its shape is not sampled as a light",
+            " at random alone, since its shape is not sampled as a light",
         "squares, meshes, and spheres with the same scale along all axes are; or put a point_light there"};
   }
   return {};

@@ -76,7 +76,7 @@ TEST_F(Silence, AnEmitterThatIsNotSampledIsTold) {
       kFirst, "point_light { position = (-6, 9, 6); color = (1, 1, 1); radius = 1; }",
       "translate(0, 2, 0, scale(0.02, 0.04, 0.02, sphere { material = { emissive = (9, 9, 9); } }))");
   write("flame.ray", flame);
-  const std::string told = "emissive sphere by chance alone";
+  const std::string told = "emissive sphere at random alone";
   EXPECT_TRUE(contains(run({"flame.ray", "flame.png", "-w", "40", "--integrator", "path"}).err, told));
   write("ball.ray", replaced(flame, "0.02, 0.04, 0.02", "0.04, 0.04, 0.04"));
   EXPECT_FALSE(contains(run({"ball.ray", "ball.png", "-w", "40", "--integrator", "path"}).err, told));
