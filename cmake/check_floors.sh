@@ -2,7 +2,8 @@
 # Prints the graph of floors (ARCHITECTURE.md) from the #include lines of src/, and fails when one goes
 # upward, sideways or through "..". CMake's include paths already keep floors apart; this shows it, and
 # catches what a relative path could smuggle past them. It also fails when another file than the two that need it
-# sees the structs of all shapes, which is slow to compile. Usage: check_floors.sh [checkout]
+# sees the structs of all shapes, which is slow to compile, and when code asks which integrator is chosen.
+# Usage: check_floors.sh [checkout]
 set -euo pipefail
 
 # From the bottom. Floors on one line stand side by side and never see each other.
@@ -30,6 +31,10 @@ done
 seers="$(grep -rlE '^#include "geometry/shape_list.h"' src tests bench | sort | tr '\n' ' ')"
 if [[ "$seers" != 'src/geometry/shape_table.cpp src/render/world_queries.cpp ' ]]; then
   echo "only the table of shapes and the World's queries include geometry/shape_list.h, not: $seers"
+  exit 1
+fi
+if grep -rnE '[!=]= *IntegratorKind::' src; then
+  echo 'ask for a trait (scene/integrators.h), not for one integrator'
   exit 1
 fi
 { grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]' src || true; } | FLOORS="$floors" awk '

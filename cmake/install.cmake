@@ -80,7 +80,7 @@ if(TARGET ray-studio)
 endif()
 
 install(DIRECTORY scenes DESTINATION ${doc} COMPONENT program)
-install(FILES README.md ARCHITECTURE.md LICENSE DESTINATION ${doc} COMPONENT doc)  # their links lead to one another
+install(FILES README.md ARCHITECTURE.md CHANGELOG.md CITATION.cff CONTRIBUTING.md LICENSE SECURITY.md DESTINATION ${doc} COMPONENT doc)  # their links lead to one another
 install(DIRECTORY docs DESTINATION ${doc} COMPONENT doc)
 
 include(${CMAKE_CURRENT_LIST_DIR}/packages.cmake)

@@ -73,6 +73,7 @@ function(trace_python)
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/python/traceray/*.py ${PROJECT_SOURCE_DIR}/python/make_stubs.py)
   set_target_properties(trace_python PROPERTIES LINK_DEPENDS "${sources}")
   set(TRACE_PYTHON ${Python3_EXECUTABLE} CACHE INTERNAL "that the module was built for")
+  set(TRACE_PYTHON_MINOR ${Python3_VERSION_MINOR} CACHE INTERNAL "its version behind 3.")
 endfunction()
 
 # Components: `library` is what programs run with, `dev` what they are compiled with, `python` the module.

@@ -4,6 +4,12 @@ set(packaged program doc)
 if(TARGET ray-studio)
   list(APPEND packaged studio)
 endif()
+if(TARGET ${TRACE_LIBRARY_NAME})
+  list(APPEND packaged library dev)
+endif()
+if(TARGET trace_python)
+  list(APPEND packaged python)
+endif()
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME trace-ray)
@@ -25,6 +31,8 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_THREADS 0)  # as many as there are
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)  # where the Python module finds the library
 
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME trace-ray)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION graphics)
@@ -62,5 +70,37 @@ The pages of Trace, a ray tracer, with their pictures: the language of scenes,
 shapes, materials, lights, ways to find light, and where courses differ.
 
 The pages are in Markdown; README.md is the first.")
+
+# While the version begins with 0, each may change the interface: whoever links the library needs this version of it.
+set(libraryPackage lib${TRACE_LIBRARY_NAME}${PROJECT_VERSION_MAJOR})
+set(sameLibrary "${libraryPackage} (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME ${libraryPackage})
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/debian/triggers)
+set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "ray tracer that explains every ray of a pixel - library
+Trace reads or builds scenes, renders them by six integrators, and explains
+each pixel by its rays.
+
+Programs that use Trace need this library.")
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME lib${TRACE_LIBRARY_NAME}-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "${sameLibrary}")
+set(CPACK_DEBIAN_DEV_DESCRIPTION "ray tracer that explains every ray of a pixel - development files
+The C++ header of Trace, a ray tracer, with its CMake package, its file for
+pkg-config, and five examples of ten lines.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-${TRACE_LIBRARY_NAME})
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+if(TARGET trace_python)  # whose file name has the version of the interpreter
+  math(EXPR nextPython "${TRACE_PYTHON_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+      "${sameLibrary}, python3 (>= 3.${TRACE_PYTHON_MINOR}), python3 (<< 3.${nextPython}), python3-numpy")
+endif()
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "ray tracer that explains every ray of a pixel - Python module
+Build, edit and render scenes of Trace, a ray tracer, in Python: pictures and
+passes are arrays of numpy, rays are dictionaries. With two notebooks.")
 
 include(CPack)

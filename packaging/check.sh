@@ -88,10 +88,33 @@ tryDoc() {
   say "trace-ray-doc: the pages are there"
 }
 
+# The examples in C++ are compiled against the installed package, and one renders.
+tryLibrary() {
+  within bare "$install g++ cmake make pkg-config ./libtraceray0_*.deb ./libtraceray-dev_*.deb" >"$work/log" 2>&1 ||
+    { cat "$work/log" >&2; fail "libtraceray-dev does not install"; }
+  within bare 'cp -r /usr/share/doc/libtraceray-dev/examples/cpp mine && cmake -S mine -B mine/build && make -C mine/build &&
+    mine/build/build_a_scene built.png && test -s built.png && pkg-config --exists traceray' >"$work/log" 2>&1 ||
+    { cat "$work/log" >&2; fail "an example in C++ does not compile or run"; }
+  say "libtraceray-dev: its examples compile, and one renders"
+}
+
+tryPython() {
+  within bare "$install ./libtraceray0_*.deb ./python3-traceray_*.deb" >"$work/log" 2>&1 ||
+    { cat "$work/log" >&2; fail "python3-traceray does not install"; }
+  within bare 'python3 -c "
+import traceray
+scene = traceray.Scene()
+scene.add(traceray.shapes.sphere(material=\"gold\"), traceray.lights.point_light(position=(3, 4, 5)))
+shape = scene.render(width=32, spp=1).image.shape
+assert shape == (24, 32, 3), shape"' >"$work/log" 2>&1 || { cat "$work/log" >&2; fail "a first picture in Python"; }
+  say "python3-traceray: builds a scene and renders it to numpy"
+}
+
 # What was installed goes without a trace, and a `ray` of somebody else stays what it was.
 tryLeaving() {
-  within bare 'dpkg --purge trace-ray-studio trace-ray-doc trace-ray' >"$work/log" 2>&1 || fail "the packages do not go"
-  within bare '! ls -d /usr/bin/ray /usr/bin/trace-ray /usr/libexec/trace-ray /usr/share/doc/trace-ray /etc/alternatives/ray* 2>/dev/null' ||
+  within bare 'dpkg --purge python3-traceray libtraceray-dev libtraceray0 trace-ray-studio trace-ray-doc trace-ray' >"$work/log" 2>&1 || fail "the packages do not go"
+  within bare '! ls -d /usr/bin/ray /usr/bin/trace-ray /usr/libexec/trace-ray /usr/share/doc/trace-ray \
+      /usr/lib/libtraceray* /usr/lib/python3/dist-packages/traceray /etc/alternatives/ray* 2>/dev/null' ||
     fail "files are left"
   within bare "echo other >/usr/bin/ray; $install ./trace-ray_*.deb" >"$work/log" 2>&1 || fail "beside another ray trace-ray does not install"
   within bare 'test "$(cat /usr/bin/ray)" = other && trace-ray --version' >"$work/log" || fail "another ray was overwritten"
@@ -118,6 +141,8 @@ if ((${#debs[@]})); then
   tryProgram
   [[ ! -e "$(echo "$folder"/trace-ray-studio_*.deb)" ]] || tryStudio
   [[ ! -e "$(echo "$folder"/trace-ray-doc_*.deb)" ]] || tryDoc
+  [[ ! -e "$(echo "$folder"/python3-traceray_*.deb)" ]] || tryPython
+  [[ ! -e "$(echo "$folder"/libtraceray-dev_*.deb)" ]] || tryLibrary
   tryLeaving
 fi
 if ((${#archives[@]})); then

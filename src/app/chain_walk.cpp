@@ -6,6 +6,7 @@
 
 #include "app/ray_view.h"
 #include "render/pixel.h"
+#include "scene/integrators.h"
 
 namespace trace {
 namespace {
@@ -122,7 +123,7 @@ TracedPixel ChainWalker::offered(const ChainWalk& walk, int index) const {
 }
 
 void ChainInspector::want(const std::shared_ptr<const Session>& session, int x, int y, int index) {
-  const bool chains = session && rowOf(session->settings()).byChains;
+  const bool chains = session && hasTrait(session->settings(), Trait::byChains);
   const auto wanted = chains ? session : nullptr;
   if (wanted == session_ && x == x_ && y == y_ && index == index_) return;
   session_ = wanted;

@@ -9,12 +9,15 @@
 #include "base/budget.h"
 #include "base/match.h"
 #include "base/text.h"
+#include "formats/kind_defaults.h"
 #include "geometry/traced.h"
 #include "image/development.h"
 #include "image/srgb.h"
 #include "render/integrator.h"
+#include "render/lamps.h"
 #include "render/passes.h"
 #include "render/render.h"
+#include "scene/integrators.h"
 #include "scene/options.h"
 
 namespace trace {
@@ -28,10 +31,10 @@ constexpr double kWanted = 90;       // the mean level of what is seen with the 
 
 /// The settings of a picture of cells: nothing that only the finished picture needs.
 Settings ofCells(Settings settings) {
-  const bool isPlain = settings.integrator == IntegratorKind::whitted;
+  const Traits traits = traitsOf(settings);
   settings.width = kCellsAcross;
   settings.height = kCellsDown;
-  settings.spp = isPlain ? 1 : 16;
+  settings.spp = traits.has(Trait::asksAllLights) ? 1 : 16;  // others are noisy
   settings.subdivide = 0;
   settings.noiseTarget = 0;
   settings.denoise = false;
@@ -42,7 +45,7 @@ Settings ofCells(Settings settings) {
   settings.photons = std::min(settings.photons, 50000);
   settings.photonPasses = 1;
   settings.caustics = std::min(settings.caustics, 20000);
-  if (settings.integrator == IntegratorKind::mlt) settings.integrator = IntegratorKind::path;
+  if (traits.has(Trait::byChains)) settings.integrator = IntegratorKind::path;
   return settings;
 }
 
@@ -194,7 +197,7 @@ std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, 
   for (std::size_t i = 0; i < lit.base.size(); ++i) lit.added[i] = lit.added[i] + lit.base[i] * -1;
   const auto factor = factorFor(lit, developmentOf(settings));
   if (!factor) return {};
-  const bool none = scene.lights.empty();
+  const bool none = scene.lights.empty() && !shines(scene);
   const bool ray = scene.format == "ray";
   return Cure{
       Place{.file = scene.file}, none ? "; the scene has no light" : "; no light reaches the visible objects",
@@ -218,10 +221,26 @@ std::optional<Cure> lookAround(const Scene& scene) {
                   : "turn the camera to " + rounded(all.center()) + ", the middle of the objects"};
 }
 
+/// An emissive object whose shape is not sampled as a light: scattered rays find it at random alone.
+std::optional<Cure> unsampledEmitter(const Scene& scene, const World& world) {
+  if (!scene.lights.empty()) return {};
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (!glows(scene.materials[object.material]) || Lamps::canSample(world, i)) continue;
+    return Cure{
+        object.place,
+        "; rays find this emissive " + std::string(object.shape.keyword()) +
+            " at random alone, since its shape is not sampled as a light",
+        "squares, meshes, and spheres with the same scale along all axes are; or put a point_light there"};
+  }
+  return {};
+}
+
 std::optional<Cure> cureOf(const Scene& scene, const Settings& settings, const World& world,
                            const std::vector<char>& seen) {
   if (std::none_of(seen.begin(), seen.end(), [](char is) { return is != 0; })) return lookAround(scene);
   if (auto cure = strongerLight(scene, settings, world, seen)) return cure;
+  if (auto cure = unsampledEmitter(scene, world)) return cure;
   return lightAtTheEye(scene, settings, world, seen);
 }
 
@@ -262,7 +281,7 @@ std::optional<Message> darkness(const Scene& scene, const Settings& settings, co
                                 const Picture& cells) {
   const Development development = developmentOf(settings);
   if (!settings.region.whole() || settings.tone == Tone::stretch || scene.objects.empty() ||
-      settings.integrator == IntegratorKind::normals || settings.unweighted || settings.lightVertices >= 0 ||
+      hasTrait(settings, Trait::showsData) || settings.unweighted || settings.lightVertices >= 0 ||
       settings.cameraVertices >= 0)
     return {};
   std::vector<char> dark;

@@ -8,6 +8,7 @@
 #include "app/path_ways.h"
 #include "base/match.h"
 #include "geometry/materials.h"
+#include "scene/integrators.h"
 
 namespace trace {
 namespace {
@@ -261,7 +262,7 @@ std::string explainJson(const PixelFacts& facts) {
   json["shares"] = Json::list();
   for (const LightShare& share : lightShares(e.tree, facts.scene))
     json["shares"].add({{"from", share.from}, {"brings", toJson(share.brings)}, {"share", share.share}});
-  json["lacksLightImage"] = facts.settings.integrator == IntegratorKind::bdpt && !facts.light;
+  json["lacksLightImage"] = hasLightImage(facts.settings) && !facts.light;
   if (facts.light) {
     const LightImagePixel& image = facts.light->image;
     json["lightImage"] = {{"value", toJson(image.value)},

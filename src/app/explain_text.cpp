@@ -11,6 +11,7 @@
 #include "app/path_ways.h"
 #include "base/printable.h"
 #include "base/text.h"
+#include "scene/integrators.h"
 #include "scene/options.h"
 
 namespace trace {
@@ -421,22 +422,22 @@ std::string explainText(const PixelFacts& facts, bool color) {
     text +=
         "rays through corners of the pixel and of the squares into which it falls; 0,0 is its lower left "
         "corner\n";
-  const bool throws = facts.settings.integrator == IntegratorKind::bdpt;
+  const bool splats = hasLightImage(facts.settings);
   text += "their mean  " + exact(e.pixel) +
-          (throws        ? "\nits paths   "
+          (splats        ? "\nits paths   "
            : facts.chain ? "\nby `path`   "
                          : "\nthe picture ") +
           exact(facts.rendered) + "\n";
   if (facts.chain)
     text += "            chains make the picture, in no order of pixels: it tends to the same" +
-            std::string(throws ? ", and to the light image" : "") + "\n";
-  if (throws) text += lightImageText(facts);
+            std::string(splats ? ", and to the light image" : "") + "\n";
+  if (splats) text += lightImageText(facts);
   if (facts.settings.denoise) text += "--denoise then makes it a mean of pixels around it that are alike\n";
   const bool whole =
-      !facts.chain && !throws && !facts.settings.denoise;  // nothing else has a part in the pixel
-  if (!facts.chain && !throws) text += shownText(facts);
+      !facts.chain && !splats && !facts.settings.denoise;  // nothing else has a part in the pixel
+  if (!facts.chain && !splats) text += shownText(facts);
   const std::string pixel = whole    ? "the picture's pixel"
-                            : throws ? "the contribution of the pixel's own paths"
+                            : splats ? "the contribution of the pixel's own paths"
                                      : "the pixel as it was traced";
   text += facts.agrees() ? "The rays above sum to " + pixel + ", bit for bit.\n"
                          : "The rays above do NOT sum to " + pixel + ": please report this.\n";

@@ -18,6 +18,7 @@
 #include "math/perpendicular.h"
 #include "render/onward.h"
 #include "render/pixel.h"
+#include "scene/integrators.h"
 
 namespace trace::lint_checks {
 namespace {
@@ -63,9 +64,8 @@ class LightSearch {
         integrator_(makeIntegrator(world, withoutPhotons(settings_), job_)),
         pixels_(world, *integrator_, settings_, kSeen),
         rules_(settings_, kSeen),
-        photons_(settings.integrator == IntegratorKind::whitted && settings.caustics > 0),
-        bounces_(settings.integrator != IntegratorKind::whitted &&
-                 settings.integrator != IntegratorKind::direct),
+        photons_(hasTrait(settings, Trait::bringsCaustics)),
+        bounces_(hasTrait(settings, Trait::bounces)),
         seen_(world.objectCount()) {
     for (std::uint32_t i = 0; i < world.lights().size(); ++i)
       if (!isSeen(world.lights()[i])) silent_.push_back({i});

@@ -12,6 +12,7 @@
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/traced.h"
 #include "math/box.h"
+#include "scene/integrators.h"
 
 namespace trace::lint_checks {
 namespace {
@@ -56,8 +57,7 @@ void lightInside(const LintScene& s, Findings& findings) {
 /// to miss.
 void lightBehindGlass(const LintScene& s, Findings& findings) {
   constexpr int kFew = 10;
-  const bool whitted = s.settings.integrator == IntegratorKind::whitted;
-  if (s.settings.integrator == IntegratorKind::photon || (whitted && s.settings.caustics > 0)) return;
+  if (hasTrait(s.settings, Trait::bringsCaustics)) return;
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
     const Survey::Lamp& lamp = s.survey.lights[i];
     if (!positionOf(s.scene.lights[i].light)) continue;
@@ -65,7 +65,8 @@ void lightBehindGlass(const LintScene& s, Findings& findings) {
     warn(findings, "light-behind-glass", s.scene.lights[i].place,
          "most of this light comes through " + quoted(s, lamp.glass) +
              ", which refracts: shadow rays continue straight, so there is no refraction and no caustic",
-         std::string(whitted ? "--caustics 200000" : "--integrator photon") +
+         std::string(findOption("caustics").concerns(s.settings) ? "--caustics 200000"
+                                                                 : "--integrator photon") +
              " traces photons from the light, which refract; or move the light out of the glass, or give the "
              "glass index = 1");
   }

@@ -7,6 +7,7 @@
 #include "app/darkness.h"
 #include "app/lint_checks.h"
 #include "app/missing_caustic.h"
+#include "scene/integrators.h"
 
 namespace trace::lint_checks {
 
@@ -47,14 +48,14 @@ void unlit(const LintScene& s, Findings& findings) {
   const auto all = static_cast<std::uint32_t>(s.scene.objects.size());
   std::uint32_t gathers = 0;
   while (gathers < all && !gathersLight(s.world, gathers)) ++gathers;
-  if (gathers < all && showsCaustics(s.settings)) return;  // light comes by ways that nobody has asked here
-  // Ambient light is Whitted's.
-  const std::string ambient = s.settings.integrator == IntegratorKind::whitted
+  if (gathers < all && hasTrait(s.settings, Trait::bringsCaustics))
+    return;  // light comes by ways that nobody has asked here
+  const std::string ambient = hasTrait(s.settings, Trait::addsAmbient)
                                   ? ", or add an ambient light with `ambient` in the material"
                                   : "";
   std::uint32_t shines = 0;
   while (shines < all && !(maxComponent(s.world.termsOf(shines).emissive) > 1)) ++shines;
-  const bool asksLamps = s.settings.integrator != IntegratorKind::whitted || s.settings.lampSamples > 0;
+  const bool asksLamps = !findOption("lamp-samples").concerns(s.settings) || s.settings.lampSamples > 0;
   const std::string lamp =
       shines < all && !asksLamps ? "; --lamp-samples 4 lets " + quoted(s, shines) + " light it" : "";
   const std::string thrown =
@@ -85,7 +86,7 @@ void unlit(const LintScene& s, Findings& findings) {
       hint = "add a light there";
     } else if (seen.facesAway > blocked) {
       cause = "; it faces away from the lights";
-      hint = "move a light to the visible side or turn its faces round";
+      hint = "move a light to the visible side, or sides = both in its material";
     } else {
       cause = most->first == object ? "; it stands in its own light"
                                     : "; it is blocked by " + quoted(s, most->first);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/match.h"
+#include "scene/integrators.h"
 
 namespace trace {
 namespace {
@@ -26,8 +27,8 @@ bool canBeVisible(const Light& light) {
 }
 
 std::string reasonOf(const Settings& settings, const Light& light) {
-  if (settings.integrator == IntegratorKind::direct)
-    return "--integrator direct follows no light that bounces";
+  if (!hasTrait(settings, Trait::bounces))
+    return "--integrator " + std::string(rowOf(settings).name) + " follows no light that bounces";
   if (isMet(light)) return "shadow rays run straight through glass";
   if (!hasSize(light)) return "the light has no size, so no path hits it";
   return canBeVisible(light) ? "the light is not visible, so no path hits it"
@@ -45,11 +46,6 @@ bool gathersLight(const World& world, std::uint32_t object, bool byGlassAlone) {
   return std::max(byGlassAlone ? 0 : maxComponent(terms.reflective), refracted) >= kMuch;
 }
 
-bool showsCaustics(const Settings& settings) {
-  return isBidirectional(settings) || settings.integrator == IntegratorKind::photon ||
-         (settings.integrator == IntegratorKind::whitted && settings.caustics > 0);
-}
-
 bool shinesOn(const Scene& scene, const World& world, std::uint32_t light, std::uint32_t object) {
   const Vec3 middle = world.boundsOf(object).center();
   const auto arriving =
@@ -60,10 +56,9 @@ bool shinesOn(const Scene& scene, const World& world, std::uint32_t light, std::
 std::optional<MissingCaustic> missingCaustic(
     const Scene& scene, const Settings& settings, const World& world, bool byGlassAlone,
     const std::function<bool(std::uint32_t light, std::uint32_t object)>& counts) {
-  const IntegratorKind kind = settings.integrator;
-  const bool direct = kind == IntegratorKind::direct;
-  if (showsCaustics(settings) || (kind != IntegratorKind::path && kind != IntegratorKind::mlt && !direct))
-    return {};
+  const Traits traits = traitsOf(settings);
+  if (traits.has(Trait::bringsCaustics) || !traits.has(Trait::meetsLamps)) return {};
+  const bool direct = !traits.has(Trait::bounces);
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
     const Light& light = scene.lights[i].light;
     const bool met = isMet(light), straight = settings.glassShadows == GlassShadows::filtered;

@@ -20,9 +20,6 @@ struct MissingCaustic {
 /// The object throws much of the light that it meets on others, gathered: it mirrors or refracts.
 bool gathersLight(const World& world, std::uint32_t object, bool byGlassAlone = false);
 
-/// The render shows the light that such objects throw.
-bool showsCaustics(const Settings& settings);
-
 /// The first light and object whose caustic will be missing, of those pairs of which `counts(light, object)`
 /// is true. Paths never meet a light without a size, or one that they do not see, so they bring nothing of
 /// its light by mirrors and glass. What glass gathers is missing wherever shadow rays run straight through

@@ -5,6 +5,7 @@
 
 #include "app/ray_segments.h"
 #include "base/text.h"
+#include "scene/integrators.h"
 
 namespace trace {
 namespace {
@@ -53,7 +54,7 @@ std::vector<PathWay> pathWays(const RayTree& tree) {
 }
 
 std::string whyNoWays(const RayTree& tree, const Settings& settings) {
-  if (settings.integrator == IntegratorKind::mlt)
+  if (hasTrait(settings, Trait::byChains))
     return "The random numbers of this sample chose one strategy, and found no such path.";
   const RayNode& camera = rayAt(tree, 0);
   if (!camera.hit && !scatteredIn(camera))

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/integrators.h"
+
 namespace trace {
 namespace {
 
@@ -13,7 +15,7 @@ int mostRaysOf(const Settings& settings) {
 
 /// Parts of the picture to which no ray of the pixel contributes; the film knows the light image of bdpt.
 std::string noteOn(const Settings& settings) {
-  if (settings.integrator == IntegratorKind::mlt)
+  if (hasTrait(settings, Trait::byChains))
     return "Markov chains made this picture, in no order of pixels: these paths show the mean that they "
            "converge to.";
   return settings.denoise ? "Denoise makes the pixel a mean of pixels that are alike." : "";

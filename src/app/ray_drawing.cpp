@@ -10,6 +10,7 @@
 #include "app/scene_model.h"
 #include "render/passes.h"
 #include "render/render.h"
+#include "scene/integrators.h"
 
 namespace trace {
 namespace {
@@ -261,7 +262,8 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
   const Vec3& eye = scene.camera.position;
   const auto panel = [&](const World& w, const Settings& s, const Walls& walls, double x,
                          const std::string& title) {
-    const bool lit = s.integrator == IntegratorKind::whitted && walls.empty();
+    // One sample of all lights has no noise.
+    const bool lit = hasTrait(s, Trait::asksAllLights) && walls.empty();
     drawing.things.push_back(DrawnWords{{x, top - kLine}, title, kInk});
     const Point2 corner{x, top};
     const Panel view(w.camera(), corner, kPanelWidth, height);

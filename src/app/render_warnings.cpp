@@ -12,9 +12,9 @@
 #include "base/text.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
-#include "render/integrator.h"
 #include "render/lamps.h"
 #include "render/render.h"
+#include "scene/integrators.h"
 #include "scene/options.h"
 
 namespace trace {
@@ -121,9 +121,8 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
     messages.warn(Place{.file = scene.file}, what, hint);
   };
   const std::string integrator = findOption("integrator").get(s);
-  const auto isConcerned = [&](const Option& option) {
-    return option.integrators == "all" || option.integrators.find(integrator) != std::string_view::npos;
-  };
+  const Traits traits = traitsOf(s);
+  const auto isConcerned = [&](std::string_view option) { return findOption(option).concerns(s); };
   std::string meant = findOption("integrator").get({});  // the integrator that the scene is made for
   for (const Choice& choice : scene.choices)
     if (choice.option == "integrator") meant = choice.value;
@@ -131,27 +130,27 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
     const bool ofScene = std::any_of(scene.choices.begin(), scene.choices.end(),
                                      [&](const Choice& choice) { return choice.option == option.name; });
     const bool told = ofScene ? option.extra && integrator == meant : true;
-    if (told && !isConcerned(option) && option.get(s) != option.get({}))
+    if (told && !option.concerns(s) && option.get(s) != option.get({}))
       warn("--" + std::string(option.name) + " changes nothing: it concerns " +
-           std::string(option.integrators) + ", and --integrator is " + integrator);
+           namesOfIntegrators(option.integrators) + ", and --integrator is " + integrator);
   }
 
   for (const Serves& row : kServes) {  // but not where the scene has both, and somebody switched one off
     const bool given = findOption(row.option).get(s) != findOption(row.option).get({});
-    const bool otherwise = (row.needed == "caustics" && s.integrator == IntegratorKind::photon) ||
+    const bool otherwise = (row.needed == "caustics" && traits.has(Trait::photons)) ||
                            (row.option == "fog-samples" && !world.media().empty());
     const bool switchedOff = std::any_of(scene.choices.begin(), scene.choices.end(),
                                          [&](const Choice& choice) { return choice.option == row.needed; });
-    if (given && isConcerned(findOption(row.option)) && !otherwise && !switchedOff &&
+    if (given && isConcerned(row.option) && !otherwise && !switchedOff &&
         findOption(row.needed).get(s) == findOption(row.needed).get({}))
       warn("--" + std::string(row.option) + " changes nothing without --" + std::string(row.needed),
            "for example --" + std::string(row.needed) + " " + std::string(row.hint));
   }
 
-  const bool chains = rowOf(s).byChains;
-  const bool throws = rowOf(s).throws;
+  const bool chains = traits.has(Trait::byChains);
+  const bool splats = traits.has(Trait::splats);
   if (s.subdivide > 0 && chains) warn("--subdivide changes nothing: chains of mlt choose where samples lie");
-  if (s.subdivide > 0 && throws && !chains)
+  if (s.subdivide > 0 && splats && !chains)
     warn("--subdivide changes nothing: paths from lights fall anywhere in the picture");
   if (subdivides(s)) {
     const auto scenes = [&](std::string_view option) {  // which would have it without --subdivide
@@ -165,7 +164,7 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
              " changes nothing with --subdivide: a pixel is the mean of its squares");
   } else if (s.denoise && chains) {
     warn("--denoise changes nothing: it does not know how exact a picture by chains is");
-  } else if (s.denoise && throws) {
+  } else if (s.denoise && splats) {
     warn("--denoise changes nothing with bdpt: how exact its light image is is not known");
   } else if (s.denoise && samplesOf(s) < 8) {
     warn(
@@ -201,8 +200,7 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
   if (s.lightChoices > 0 && world.lights().size() < 2)
     warn("--light-choices changes nothing: the scene has fewer than two lights");
 
-  const bool whitted = s.integrator == IntegratorKind::whitted;
-  if (whitted && s.caustics > 0) {
+  if (!traits.has(Trait::meetsLamps) && isConcerned("caustics") && s.caustics > 0) {
     if (world.lights().empty())
       warn("--caustics changes nothing: the scene has no light that sends photons",
            "emissive objects emit none; --integrator path traces their light");
@@ -214,43 +212,46 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
     const MeshTree* mesh = world.meshTree(object);
     return mesh && !mesh->data().normals.empty();
   };
-  if (s.smoothTerminator && s.integrator != IntegratorKind::normals) {
+  if (s.smoothTerminator && isConcerned("smooth-terminator")) {
     bool any = false;
     for (std::uint32_t i = 0; i < world.objectCount() && !any; ++i) any = hasNormals(i);
     if (!any)
       warn("--smooth-terminator changes nothing: no mesh of the scene has normals at its points",
            "gennormals or crease in a mesh makes them");
   }
-  if (whitted && s.caustics == 0 && s.causticTexels > 0)
+  if (isConcerned("caustic-texels") && s.caustics == 0 && s.causticTexels > 0)
     warn("--caustic-texels changes nothing: there are no photons to gather", "--caustics 200000 sends some");
-  if (whitted && s.lampSamples > 0 && Lamps(world, s.threads, true).empty())
+  if (isConcerned("lamp-samples") && s.lampSamples > 0 && Lamps(world, s.threads, true).empty())
     warn(
         "--lamp-samples changes nothing: no square, ball or mesh of the scene is emissive, and its sky is "
         "uniform",
         "give an object an emissive color; other emissive shapes light nothing");
-  if (whitted && s.ambientOcclusion > 0 && isBlack(world.ambient()))
+  if (isConcerned("ambient-occlusion") && s.ambientOcclusion > 0 && isBlack(world.ambient()))
     warn("--ambient-occlusion changes nothing: the scene has no ambient light");
 
-  if (whitted && s.lampSamples == 0 && world.lights().empty() && !Lamps(world, s.threads).empty() &&
+  if (isConcerned("lamp-samples") && s.lampSamples == 0 && world.lights().empty() &&
+      !Lamps(world, s.threads).empty() &&
       anyObject(world, [](const WhittedTerms& terms) { return isBlack(terms.emissive); }))
     warn(anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); })
-             ? "only emissive objects light the scene, and for --integrator whitted they light nothing"
-             : "only the environment lights the scene, and for --integrator whitted it lights nothing",
+             ? "only emissive objects light the scene, and for --integrator " + integrator +
+                   " they light nothing"
+             : "only the environment lights the scene, and for --integrator " + integrator +
+                   " it lights nothing",
          "--lamp-samples 4 samples it; --integrator path traces the light further");
 
-  if (s.integrator == IntegratorKind::photon && s.photonPasses > samplesOf(s) &&
+  if (traits.has(Trait::photons) && s.photonPasses > samplesOf(s) &&
       s.photonPasses != Settings{}.photonPasses)
     warn("--photon-passes " + std::to_string(s.photonPasses) +
              ": each sample of a pixel takes one map, and --spp gives " + std::to_string(samplesOf(s)),
          "choose --spp at least as large: no other maps are made");
-  if (s.integrator == IntegratorKind::bdpt && s.unweighted && s.lightVertices < 0 && s.cameraVertices < 0)
+  if (isConcerned("unweighted") && s.unweighted && s.lightVertices < 0 && s.cameraVertices < 0)
     warn("--unweighted: all light counts once for each strategy",
          "--light-vertices S or --camera-vertices T shows one of the strategies");
 
-  if (s.integrator == IntegratorKind::bdpt && s.cameraVertices == 0)
+  if (isConcerned("camera-vertices") && s.cameraVertices == 0)
     warn("--camera-vertices 0 shows nothing: the camera is a vertex of every path",
          "--camera-vertices 1 shows the light image");
-  if (s.integrator == IntegratorKind::bdpt && world.media().empty() && !(s.fog > 0) &&
+  if (isConcerned("light-vertices") && world.media().empty() && !(s.fog > 0) &&
       s.lightVertices + std::max(s.cameraVertices, 1) > s.depth + 3)
     warn("--light-vertices and --camera-vertices show nothing: with --depth " + std::to_string(s.depth) +
              " a path has " + std::to_string(s.depth + 3) + " vertices at most",
@@ -269,26 +270,23 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
              ": how bright the picture is follows from so few samples",
          "choose " + std::to_string(kFewStarts) + " at least");
 
-  if (s.subsurfaceSamples != Settings{}.subsurfaceSamples && isConcerned(findOption("subsurface-samples")) &&
+  if (s.subsurfaceSamples != Settings{}.subsurfaceSamples && isConcerned("subsurface-samples") &&
       !world.hasSubsurface())
     warn("--subsurface-samples changes nothing: no object of the scene has subsurface scattering",
          "library = marble and millimetres = 10 in a material add it");
 
   const auto glows = [](const World::MediumBody& body) { return !isBlack(body.model.most().glows); };
-  if (s.integrator == IntegratorKind::photon &&
-      std::any_of(world.media().begin(), world.media().end(), glows))
+  if (traits.has(Trait::photons) && std::any_of(world.media().begin(), world.media().end(), glows))
     warn("--integrator photon shows emissive media, but they emit no photons",
          "--integrator path traces that light");
 
-  const bool paths = isBidirectional(s) || s.integrator == IntegratorKind::path ||
-                     s.integrator == IntegratorKind::direct || s.integrator == IntegratorKind::mlt ||
-                     s.integrator == IntegratorKind::photon;
+  const bool paths = traits.has(Trait::meetsLamps), bounces = traits.has(Trait::bounces);
   const bool lastingFog = s.fog > 0 && s.fogHeight == 0 && s.mediumDepth > 1 && !isBlack(s.fogColor);
-  if (paths && s.integrator != IntegratorKind::direct && lastingFog && hasSun(scene) && seesBeyond(world))
+  if (bounces && lastingFog && hasSun(scene) && seesBeyond(world))
     warn("the sun lights infinite fog: with --integrator " + integrator +
              " its brightness depends on --medium-depth and the size of the scene",
          "--fog-height thins it out above; --medium-depth 1 scatters light once, as whitted does");
-  if (paths && s.integrator != IntegratorKind::direct)
+  if (bounces)
     if (const Object* gains = firstWith(scene, gainsLight))
       messages.warn(gains->place,
                     "its material reflects more light than it receives (diffuse together with transmissive "
@@ -309,7 +307,7 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
              " finds no light in the scene: ambient light stands for light that bounces, "
              "and is left out",
          "add a light, an object with emissive, or a background with a gradient");
-  else if (whitted && !scene.objects.empty() && isDark(scene, world))
+  else if (traits.has(Trait::addsAmbient) && !scene.objects.empty() && isDark(scene, world))
     warn("no light: everything will be black",
          "add one, as in point_light { position = (0, 0, 5); color = (1, 1, 1); }");
 }

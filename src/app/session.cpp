@@ -14,6 +14,7 @@
 #include "image/denoise.h"
 #include "render/passes.h"
 #include "render/photon_map.h"
+#include "scene/integrators.h"
 #include "scene/quality.h"
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -39,7 +40,7 @@ class Stopwatch {
 /// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
 /// in the encoder's buffers.
 std::uint64_t bytesPerPixel(const Settings& settings) {
-  const std::uint64_t splats = rowOf(settings).throws ? SplatPlane::bytesPerPixel() : 0;
+  const std::uint64_t splats = hasTrait(settings, Trait::splats) ? SplatPlane::bytesPerPixel() : 0;
   // Two corners and their keys, as many as a picture with edges has.
   const std::size_t layers = layersOf(settings).size();
   const std::uint64_t corners = subdivides(settings) ? 2 * ((layers + 1) * sizeof(Color) + 16) : 0;
@@ -52,10 +53,9 @@ std::uint64_t photonBytes(const Settings& settings) {
   const std::int64_t moments = settings.shutter > 0 ? settings.moments : 1;
   const int passes =
       std::max(1, static_cast<int>(std::min(settings.photonPasses, samplesOf(settings)) / moments));
-  const std::int64_t photons = settings.integrator == IntegratorKind::photon
-                                   ? std::int64_t{settings.photons} * passes
-                               : settings.integrator == IntegratorKind::whitted ? settings.caustics
-                                                                                : 0;
+  const std::int64_t photons = hasTrait(settings, Trait::photons) ? std::int64_t{settings.photons} * passes
+                               : findOption("caustics").concerns(settings) ? settings.caustics
+                                                                           : 0;
   return static_cast<std::uint64_t>(moments * photons) * sizeof(Photon);
 }
 

@@ -101,13 +101,8 @@ bool lacksFiles(const Scene& scene) {
   return lacks;
 }
 
-void readLackingFiles(Scene& scene) {
-  Messages messages;
-  loadTextures(scene, messages);
-  if (!messages.all().empty()) {
-    const Message& first = messages.all().front();
-    throw Error(Fault::scene, first.what);
-  }
+void readLackingFiles(Scene& scene, Messages& messages) {
+  if (!loadTextures(scene, messages)) throw Error(Fault::scene, messages.all().back().what);
   eachPhotometry(scene, [&](PhotometryFile& file) {
     if (file.data || file.file.empty()) return;
     const std::string path = pictureFile(scene.file, file.file);

@@ -29,7 +29,7 @@ std::string whyIdle(const TextureModel& model, std::string_view field);
 /// Has the scene files named since it was read, pictures or photometries?
 bool lacksFiles(const Scene& scene);
 
-/// Reads them. Throws Error(Fault::scene) about the first that cannot be read.
-void readLackingFiles(Scene& scene);
+/// Reads them. Throws Error(Fault::scene) if one cannot be read; `messages` gets what is odd about the others.
+void readLackingFiles(Scene& scene, Messages& messages);
 
 }  // namespace trace

@@ -7,6 +7,7 @@
 
 #include "app/workspace.h"
 #include "base/error.h"
+#include "scene/options.h"
 
 namespace trace {
 namespace {
@@ -80,9 +81,11 @@ double lightIn(const Picture& picture) {
 
 }  // namespace
 
+bool showsStrategies(const Settings& settings) { return findOption("light-vertices").concerns(settings); }
+
 Pyramid wayPyramid(const PyramidPlan& plan, const Cancelled& cancelled) {
   Pyramid pyramid{plan};
-  if (!plan.session || plan.session->settings().integrator != IntegratorKind::bdpt) return pyramid;
+  if (!plan.session || !showsStrategies(plan.session->settings())) return pyramid;
   const Settings settings = pyramidSettings(plan);
   const auto given = [&] { return cancelled && cancelled(); };
   try {

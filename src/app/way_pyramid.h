@@ -40,7 +40,10 @@ struct Pyramid {
   std::string problem{};               ///< why there are none; "" if there are
 };
 
-/// Renders it, at small size; none of a session whose integrator is not bdpt. Keeps errors as the problem.
+/// Options of the integrator show one strategy alone.
+bool showsStrategies(const Settings& settings);
+
+/// Renders it, at small size; none of a session that does not show strategies. Keeps errors as the problem.
 Pyramid wayPyramid(const PyramidPlan& plan, const Cancelled& cancelled = {});
 
 /// Renders them in the background, for a window that asks in every frame.

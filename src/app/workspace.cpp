@@ -237,11 +237,13 @@ void Workspace::edit(const std::string& what, Scene scene, bool continues) {
   if (!lacksFiles(scene) || lacksFiles(document.scene()))
     return document.edit(what, std::move(scene), continues);
   completing_.start([what, of = document.sharedScene(), scene = std::move(scene)](const Cancelled&) mutable {
-    Completed completed{what, of, nullptr, {}};
+    Completed completed{what, of, nullptr, {}, {}};
+    Messages messages;
     Outcome<bool> outcome = outcomeOf(scene.file, [&] {
-      readLackingFiles(scene);
+      readLackingFiles(scene, messages);
       return true;
     });
+    completed.remarks = messages.all();
     completed.errors = std::move(outcome.errors);
     completed.scene = std::make_shared<const Scene>(std::move(scene));
     return completed;
@@ -251,8 +253,10 @@ void Workspace::edit(const std::string& what, Scene scene, bool continues) {
 void Workspace::takeCompleted() {
   const std::optional<Completed> completed = completing_.take();
   if (!completed) return;
-  if (completed->errors.empty() && completed->of == document.sharedScene())
+  if (completed->errors.empty() && completed->of == document.sharedScene()) {
+    report(completed->remarks);
     return document.edit(completed->what, *completed->scene);
+  }
   refuse(completed->what,
          completed->errors.empty() ? "the scene was edited meanwhile" : completed->errors.front().what);
 }

@@ -147,7 +147,7 @@ class Workspace {
   struct Completed {  ///< an edit and the files that it names
     std::string what;
     std::shared_ptr<const Scene> of, scene;
-    std::vector<Message> errors;
+    std::vector<Message> errors, remarks;
   };
   struct Reference {
     std::string file;

@@ -16,6 +16,11 @@ class EnumSet {
   }
   constexpr bool has(Enum value) const { return (bits_ & bit(value)) != 0; }
   constexpr void add(Enum value) { bits_ |= bit(value); }
+  constexpr EnumSet operator|(const EnumSet& other) const {
+    EnumSet both(*this);
+    both.bits_ |= other.bits_;
+    return both;
+  }
   constexpr bool empty() const { return bits_ == 0; }
   constexpr bool operator==(const EnumSet&) const = default;
 

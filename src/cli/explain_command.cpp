@@ -17,6 +17,7 @@
 #include "cli/render_steps.h"
 #include "cli/terminal.h"
 #include "image/codec.h"
+#include "scene/integrators.h"
 
 namespace trace::cli {
 namespace {
@@ -93,9 +94,9 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   choices.push_back({"region", corner(x, y) + "," + corner(x + 1, y + 1), {}});
   opened->open(arguments.files[0], choices, arguments.strict);
   const std::string asked(rowOf(opened->settings()).name);
-  const bool byChains = rowOf(opened->settings()).byChains;
-  const bool bothWays = byChains && opened->settings().chains == Chains::bdpt;
-  if (arguments.lightImage && !bothWays && (byChains || !rowOf(opened->settings()).throws))
+  const bool byChains = hasTrait(opened->settings(), Trait::byChains);
+  const bool bothWays = byChains && hasTrait(opened->settings(), Trait::joinsEnds);
+  if (arguments.lightImage && !bothWays && !hasLightImage(opened->settings()))
     throw Error(Fault::usage,
                 "--light-image: expected --integrator bdpt, which has one, found " + asked +
                     (byChains ? " --chains " + findOption("chains").get(opened->settings()) : ""));
@@ -104,8 +105,9 @@ int explainCommand(const Arguments& arguments, const Console& console) {
     console.line(LogLevel::info,
                  "note: chains make this picture, in no order of pixels; shown are paths of --integrator " +
                      shown + ", whose mean they converge to, and a chain that visits the pixel");
+    const auto ofChains = integratorsWith(Trait::byChains);
     std::erase_if(choices,
-                  [&](const Choice& choice) { return findOption(choice.option).integrators == asked; });
+                  [&](const Choice& choice) { return findOption(choice.option).integrators == ofChains; });
     choices.push_back({"integrator", shown, {}});
     opened.emplace().open(arguments.files[0], choices, arguments.strict);
   }

@@ -67,10 +67,7 @@ LightSource sun(const Camera& camera, Real size) {
 bool givesLight(const Scene& scene) {
   const Background& background = scene.background;
   return !scene.lights.empty() || !(background == Background{}) || isGiven(scene, "environment") ||
-         std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-           const Material& material = scene.materials[object.material];
-           return glows(material) || !isBlack(material.mediumGlows);
-         });
+         shines(scene);
 }
 
 void addCamera(Scene& scene, const KindGiven& given, const Box3& seen) {
@@ -103,7 +100,7 @@ void addCamera(Scene& scene, const KindGiven& given, const Box3& seen) {
   scene.kindDefaults.emplace_back("a camera so far away that it shows all objects");
 }
 
-/// Meshes without normals look round where their faces meet at less than this, and have no back.
+/// Meshes without normals look round where their faces meet at less than this.
 constexpr Real kCrease = 40 * kPi / 180;
 
 void smoothMeshes(Scene& scene) {
@@ -120,11 +117,6 @@ void smoothMeshes(Scene& scene) {
     }
     object.shape = found->second;
   }
-}
-
-void showBothSides(Scene& scene) {
-  for (const Object& object : scene.objects)
-    if (object.shape.is<Mesh>()) scene.materials[object.material].sides = ShadedSides::both;
 }
 
 /// A light that fades: its colour is what falls on a white surface at the distance of what is looked at.
@@ -199,6 +191,13 @@ void completeBareMesh(Scene& scene) {
   addKindChoices(scene, Place{.file = scene.file});
 }
 
+bool shines(const Scene& scene) {
+  return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+    const Material& material = scene.materials[object.material];
+    return glows(material) || !isBlack(material.mediumGlows);
+  });
+}
+
 Box3 boundsOfInterest(const Scene& scene) {
   constexpr Real kFlat = 0.02, kMuchLarger = 4;
   std::vector<Box3> boxes;
@@ -223,10 +222,8 @@ Box3 boundsOfInterest(const Scene& scene) {
 void addKindDefaults(Scene& scene, const KindGiven& given, const Place& place) {
   const Box3 seen = boundsOfInterest(scene);
   addCamera(scene, given, seen);
-  for (Material& material : scene.materials)
-    if (material == Material{}) material = plainMaterial();
+  for (Material& material : scene.materials) completeMaterial(material);
   smoothMeshes(scene);
-  showBothSides(scene);
   letLightsReach(scene, given, seen);
   if (!givesLight(scene)) {
     constexpr Real kSunSize = 3;

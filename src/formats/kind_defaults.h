@@ -31,6 +31,9 @@ void addKindDefaults(Scene& scene, const KindGiven& given, const Place& place);
 /// other scene stays as it is. Not for conversions, which keep what the file has.
 void completeBareMesh(Scene& scene);
 
+/// Is an object or a medium in it emissive?
+bool shines(const Scene& scene);
+
 /// The bounds of what a person looks at: of all objects that end somewhere, except for a floor that is much
 /// larger than all that stands on it.
 Box3 boundsOfInterest(const Scene& scene);

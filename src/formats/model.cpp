@@ -169,6 +169,14 @@ Material plainMaterial() {
   return {"", phong, {}};
 }
 
+void completeMaterial(Material& material) {
+  Material unsaid;
+  unsaid.sides = material.sides;
+  if (material != unsaid) return;
+  material = plainMaterial();
+  material.sides = unsaid.sides;
+}
+
 Box3 bounds(const Scene& scene) {
   Box3 box;
   for (const Object& object : scene.objects)

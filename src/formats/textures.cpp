@@ -58,7 +58,7 @@ std::string pictureFile(const std::string& from, const std::string& name) {
   return namedFile(from, pictureName(name).file).path;
 }
 
-void loadTextures(Scene& scene, Messages& messages) {
+bool loadTextures(Scene& scene, Messages& messages) {
   std::map<std::string, Loaded> byPath;
   std::vector<std::pair<const std::string, Loaded>*> files;  // in the order met
   changePixels(scene, [&](Pixels& pixels) {
@@ -72,7 +72,7 @@ void loadTextures(Scene& scene, Messages& messages) {
     found->second.place = pixels.place.file.empty() ? Place{.file = scene.file} : pixels.place;
     files.push_back(&*found);
   });
-  if (files.empty()) return;
+  if (files.empty()) return true;
   const ReadScope scope = ReadScope::ofScene(scene.file);
   const Work work("reading the textures", std::ssize(files));
   Job job;
@@ -97,6 +97,7 @@ void loadTextures(Scene& scene, Messages& messages) {
     if (pixels.map || pixels.file.empty()) return;
     pixels.map = byPath.at(pictureName(pixels.file).of(pictureFile(scene.file, pixels.file))).map;
   });
+  return unread.empty();
 }
 
 void UnusedTextures::note(std::string_view name, const Place& place) {

@@ -17,9 +17,10 @@
 namespace trace {
 
 /// Reads the pictures of the scene's textures and background, each file once, and notes them in
-/// Scene::inputs. One that is missing or broken is a warning, and a checker in its place. Throws
-/// Error(Fault::limit) where memory lacks, and ReadDenied for one that may not be read (base/read_scope.h).
-void loadTextures(Scene& scene, Messages& messages);
+/// Scene::inputs. One that is missing or broken is a warning, the last, and a checker in its place; then it
+/// returns false. Throws Error(Fault::limit) where memory lacks, and ReadDenied for one that may not be read
+/// (base/read_scope.h).
+bool loadTextures(Scene& scene, Messages& messages);
 
 /// The path of namedFile() (base/named_file.h).
 std::string pictureFile(const std::string& from, const std::string& name);

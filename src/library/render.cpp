@@ -21,8 +21,8 @@
 #include "library/guard.h"
 #include "library/images.h"
 #include "library/scene_state.h"
-#include "render/integrator.h"
 #include "render/passes.h"
+#include "scene/integrators.h"
 
 namespace traceray {
 
@@ -208,7 +208,7 @@ Explanation Render::explain(int x, int y, int sample) const {
   return guarded([&] {
     const trace::Session& session = state_->session;
     const trace::Settings& settings = session.settings();
-    if (rowOf(settings).byChains)
+    if (hasTrait(settings, trace::Trait::byChains))
       throw Error(
           Error::Kind::usage,
           "explain: chains make this picture, in no order of pixels: expected another integrator than " +

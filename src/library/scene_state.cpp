@@ -54,7 +54,7 @@ void SceneState::add(std::string_view statements) {
   try {
     said = trace::rayfile::readPart(file, statements, scene, messages);
     for (std::size_t i = materials; i < scene.materials.size(); ++i)
-      if (scene.materials[i] == trace::Material{}) scene.materials[i] = trace::plainMaterial();
+      trace::completeMaterial(scene.materials[i]);
     loadTextures(scene, messages);
     messages.throwIfFailed();
   } catch (...) {

@@ -23,35 +23,33 @@ std::unique_ptr<Integrator> makeForChains(const Settings& settings) {
   return std::make_unique<PathTracer>(PathTracer::Light::bounced);
 }
 
-constexpr std::array kIntegrators{
-    IntegratorRow{IntegratorKind::whitted, "whitted", "recursive ray tracing: shadows, mirrors and glass",
-                  make<Whitted>},
-    IntegratorRow{IntegratorKind::path, "path", "path tracing: light that bounces between surfaces",
-                  make<PathTracer, PathTracer::Light::bounced>},
-    IntegratorRow{IntegratorKind::direct, "direct", "path without bounces: direct light",
-                  make<PathTracer, PathTracer::Light::straight>},
-    IntegratorRow{IntegratorKind::bdpt, "bdpt", "path, joined with paths that start at lights",
-                  make<Bidirectional>, false, true},
-    IntegratorRow{IntegratorKind::mlt, "mlt", "Metropolis light transport: Markov chains explore paths",
-                  makeForChains, true, true},
-    IntegratorRow{IntegratorKind::photon, "photon", "photon maps",
-                  make<PathTracer, PathTracer::Light::photons>},
-    IntegratorRow{IntegratorKind::occlusion, "occlusion", "ambient occlusion, in white clay",
-                  make<Occlusion>},
-    IntegratorRow{IntegratorKind::normals, "normals", "where surfaces face, as colours", make<Normals>},
-    IntegratorRow{IntegratorKind::cost, "cost", "the work of whitted for each pixel, as colours", make<Cost>},
+struct Maker {
+  IntegratorKind kind;
+  std::unique_ptr<Integrator> (*make)(const Settings& settings);
 };
+/// In the order of the enum.
+constexpr std::array kMakers{
+    Maker{IntegratorKind::whitted, make<Whitted>},
+    Maker{IntegratorKind::path, make<PathTracer, PathTracer::Light::bounced>},
+    Maker{IntegratorKind::direct, make<PathTracer, PathTracer::Light::straight>},
+    Maker{IntegratorKind::bdpt, make<Bidirectional>},
+    Maker{IntegratorKind::mlt, makeForChains},
+    Maker{IntegratorKind::photon, make<PathTracer, PathTracer::Light::photons>},
+    Maker{IntegratorKind::occlusion, make<Occlusion>},
+    Maker{IntegratorKind::normals, make<Normals>},
+    Maker{IntegratorKind::cost, make<Cost>},
+};
+constexpr bool inOrder() {
+  for (std::size_t i = 0; i < kMakers.size(); ++i)
+    if (static_cast<std::size_t>(kMakers[i].kind) != i) return false;
+  return true;
+}
+static_assert(inOrder());
 
 }  // namespace
 
-std::span<const IntegratorRow> integrators() { return kIntegrators; }
-
-const IntegratorRow& rowOf(const Settings& settings) {
-  return kIntegrators[static_cast<std::size_t>(settings.integrator)];
-}
-
 std::unique_ptr<const Integrator> makeIntegrator(const World& world, const Settings& settings, Job& job) {
-  auto integrator = rowOf(settings).make(settings);
+  auto integrator = kMakers[static_cast<std::size_t>(settings.integrator)].make(settings);
   if (changesPaths(settings)) veach::refuseUnknown(world, settings);
   integrator->prepare(world, settings, job);
   return integrator;

@@ -1,16 +1,16 @@
-// THE table of integrators: the ways to find the light that comes along a camera ray. A new one is one
-// file, one value of the enum IntegratorKind (scene/settings.h) and one row.
+// The interface of integrators: the ways to find the light that comes along a camera ray. A new one is one
+// file, one value of the enum IntegratorKind (scene/settings.h), one row of scene/integrators.cpp and its
+// maker in integrator.cpp.
 #pragma once
 
 #include <memory>
 #include <optional>
-#include <span>
-#include <string_view>
 #include <vector>
 
 #include "base/parallel.h"
 #include "render/sampler.h"
 #include "render/tracer.h"
+#include "scene/integrators.h"
 
 namespace trace {
 
@@ -59,18 +59,6 @@ struct Moment {
   const World* world;
   const Integrator* integrator;
 };
-
-struct IntegratorRow {
-  IntegratorKind kind;
-  std::string_view name;
-  std::string_view help;
-  std::unique_ptr<Integrator> (*make)(const Settings& settings);
-  bool byChains = false;  ///< Markov chains choose the samples: a pixel has none of its own
-  bool throws = false;    ///< its samples bring light to other pixels, too
-};
-
-std::span<const IntegratorRow> integrators();
-const IntegratorRow& rowOf(const Settings& settings);
 
 /// The integrator of the settings, prepared.
 std::unique_ptr<const Integrator> makeIntegrator(const World& world, const Settings& settings, Job& job);

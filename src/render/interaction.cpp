@@ -94,7 +94,6 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
   const World& world = tracer.world();
   const Vec3& from = lightPlace();
   const bool foggy = tracer.settings().fog > 0;
-  constexpr std::uint32_t kBodies = 0x40000000u;  // beyond the numbers of lights
   askLights(tracer, from, &normal, sampler, [&](const AskedLight& asked) {
     const std::uint32_t i = asked.light;
     if (!world.lights(i, hit.object)) return sum.noteDark(i, DarkTerm::Why::unlinked);
@@ -114,7 +113,7 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
         if (!world.media().empty())
           passed = throughBodies(
               tracer, passed, toward, arriving->distance,
-              asked.sampler.branch(kBodies + asked.branch).branch(static_cast<std::uint32_t>(n)));
+              asked.sampler.branch(Branch::lightMedia, asked.branch).branch(static_cast<std::uint32_t>(n)));
       }
       sum.addLight(i, *arriving, parts, scattered * material.shadow, passed, share, asked.probability);
       if (material.shadow < 1)
@@ -131,11 +130,10 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
 
 void Interaction::addOpen(Gather& sum, Term::Kind kind, const Color& factor, int rays,
                           const Sampler& sampler) const {
-  constexpr std::uint32_t kOpen = 0x7ffffffeu, kHoles = 0x7ffffffcu;  // branches of the place's numbers
-  const Vec2 first = sampler.branch(kOpen).next2();
+  const Vec2 first = sampler.branch(Branch::occlusion).next2();
   const Basis basis = Frame{normal}.basis();
   const Real reach = tracer.settings().occlusionReach;
-  Sampler chances = sampler.branch(kHoles);
+  Sampler chances = sampler.branch(Branch::occlusionHoles);
   for (int n = 0; n < rays; ++n) {
     const Vec2 u = rotated(sobolPoint(static_cast<std::uint32_t>(n)), first);
     const Vec3 direction = basis.toWorld(cosineDirection(u));

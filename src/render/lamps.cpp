@@ -31,6 +31,12 @@ Real uniformScale(const Affine& m) {
 
 }  // namespace
 
+bool Lamps::canSample(const World& world, std::uint32_t object) {
+  const std::string_view shape = world.shapeOf(object);
+  return world.meshTree(object) || shape == Square::kKeyword ||
+         (shape == Sphere::kKeyword && uniformScale(world.worldFromObject(object)) > 0);
+}
+
 Lamps::Lamps(const World& world, int threads, bool onlyHere)
     : sky_(world.outside(), threads, onlyHere), first_(world.objectCount(), kNone) {
   for (std::uint32_t object = 0; object < world.objectCount(); ++object) {

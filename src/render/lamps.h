@@ -26,6 +26,9 @@ class Lamps {
   /// Places are then spread over areas, so that Whitted's pictures keep their bits.
   Lamps(const World& world, int threads, bool onlyHere = false);
 
+  /// Is the object sampled as a light if it is emissive? Meshes, squares and evenly scaled spheres are.
+  static bool canSample(const World& world, std::uint32_t object);
+
   bool empty() const { return parts_.empty() && !choosesSky(); }
   /// There is nothing to choose but a place on it.
   bool isOne() const { return parts_.size() == 1 && !choosesSky(); }

@@ -3,6 +3,7 @@
 
 #include "render/sampler.h"
 #include "render/tracer.h"
+#include "scene/integrators.h"
 
 namespace trace {
 
@@ -10,7 +11,7 @@ namespace trace {
 inline int lightChoices(const Settings& settings, std::size_t lights) {
   constexpr std::size_t kFew = 32;
   if (settings.lightChoices > 0) return settings.lightChoices;
-  return settings.integrator != IntegratorKind::whitted && lights > kFew ? 1 : 0;
+  return lights > kFew && !hasTrait(settings, Trait::asksAllLights) ? 1 : 0;
 }
 
 /// A light that a place samples.
@@ -35,8 +36,7 @@ void askLights(const Tracer& tracer, const Vec3& from, const Vec3* normal, const
     for (std::uint32_t i = 0; i < world.lights().size(); ++i) ask(AskedLight{i, 1, 1, sampler, i});
     return;
   }
-  constexpr std::uint32_t kChoices = 0x7ffffff0u;  // a branch other than those of the lights
-  const Sampler choosing = sampler.branch(kChoices);
+  const Sampler choosing = sampler.branch(Branch::lightChoice);
   Sampler numbers = choosing;
   const Real first = numbers.next();
   for (int k = 0; k < choices; ++k) {

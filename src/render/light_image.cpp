@@ -49,7 +49,7 @@ class Landings {
 
 LightImagePixel lightImageAt(std::span<const Moment> moments, const Settings& settings, const Size& size,
                              int x, int y, Job& job) {
-  if (!rowOf(settings).throws || rowOf(settings).byChains || subdivides(settings)) return {};
+  if (!hasLightImage(settings) || subdivides(settings)) return {};
   const Tile area = areaOf(settings.region, size);
   if (x < area.x0 || x >= area.x1 || y < area.y0 || y >= area.y1) return {};
   if (settings.cameraVertices >= 0 && settings.cameraVertices != 1) return {};

@@ -6,7 +6,6 @@
 namespace trace {
 
 void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers) {
-  constexpr std::uint32_t kBodies = 0x40000000u;  // beyond the numbers of lights
   const World& world = tracer.world();
   const Fog fog(tracer.settings());
   askLights(tracer, place.point, nullptr, numbers, [&](const AskedLight& asked) {
@@ -22,16 +21,15 @@ void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const S
     if (isBlack(factor)) return;
     const Color passed = throughBodies(
         tracer, tracer.visible(place.point, arriving->toLight, arriving->distance, place.inside), toLight,
-        arriving->distance, numbers.branch(kBodies + asked.branch));
+        arriving->distance, numbers.branch(Branch::lightMedia, asked.branch));
     sum.addScattered(asked.light, factor, passed, place.medium);
   });
 }
 
 void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lamps& lamps, bool met,
                const Sampler& numbers) {
-  constexpr std::uint32_t kLamp = 0x80000000u, kBodies = 0x80000001u;  // branches other than those of lights
   if (lamps.empty()) return;
-  Sampler chances = numbers.branch(kLamp);
+  Sampler chances = numbers.branch(Branch::scatteredLamp);
   const Real which = chances.next();
   const auto lamp = lamps.choose(place.point, which, chances.next2());
   if (!lamp) return;
@@ -41,7 +39,7 @@ void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lam
   Color factor = place.share * (scattered / lamp->density);
   if (!place.medium) return sum.add(Term::Kind::fog, factor, seen);
   if (!tracer.world().media().empty() && !isBlack(seen))
-    factor *= passedByBodies(tracer, toLamp, lamp->distance, numbers.branch(kBodies));
+    factor *= passedByBodies(tracer, toLamp, lamp->distance, numbers.branch(Branch::scatteredToLamp));
   const Real other = met ? scattered : 0, square = lamp->density * lamp->density;
   const ChanceTerm chance{lamp->density, other, other > 0 ? square / (square + other * other) : 1};
   sum.add(factor * chance.share, seen, *place.medium, chance);

@@ -7,6 +7,10 @@
 //
 // There is one chain for each wave of a tile, as long as that has samples. It starts at one of many samples
 // taken at random, a brighter one more likely, so that no start has to be thrown away.
+//
+// Use it for light that is hard to find and must not be blurred: through gaps, keyholes and glass. Not for
+// lights in the open, where the samples of path are spread more evenly, nor with a noise target or denoising:
+// the error of a pixel is not known.
 #pragma once
 
 #include <cstdint>

@@ -190,11 +190,12 @@ Film makeFilm(const Settings& settings, int width, int height) {
   std::vector<Film::LayerKind> layers;
   for (const PassRow* row : layersOf(settings))
     layers.push_back({row->keep == Film::Keep::sum ? Color(0) : row->background, row->keep});
-  const IntegratorRow& row = rowOf(settings);
-  Film film(width, height, samplesOf(settings), layers, row.byChains ? 0 : settings.noiseTarget);
-  if (row.throws) film.takeSplats();
+  const Traits traits = traitsOf(settings);
+  Film film(width, height, samplesOf(settings), layers,
+            traits.has(Trait::byChains) ? 0 : settings.noiseTarget);
+  if (traits.has(Trait::splats)) film.takeSplats();
   if (subdivides(settings)) film.divide(subdivisionOf(settings, {width, height}));
-  if (settings.denoise && !row.throws && !film.corners()) film.keepHalves();
+  if (settings.denoise && !traits.has(Trait::splats) && !film.corners()) film.keepHalves();
   return film;
 }
 

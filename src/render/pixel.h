@@ -85,7 +85,7 @@ class PixelTracer {
       const int pixel = std::min(static_cast<int>(at), end - first - 1);
       return std::pair(first + pixel, at - pixel);
     };
-    const Vec2 u = sampler.branch(Sampler::kFilm).next2();
+    const Vec2 u = sampler.branch(Branch::film).next2();
     const auto [x, withinX] = split(u.x, area.x0, area.x1);
     const auto [y, withinY] = split(u.y, area.y0, area.y1);
     const FilmSample place = rules_.film(x, y, 0, {withinX, withinY});
@@ -126,13 +126,13 @@ class PixelTracer {
     const World& world = tracer.world();
     const CameraFrame& frame = world.camera();
     const Vec2 place = frame.inEyeOf(middle, drawn.place);
-    const Vec2 lens = frame.optics.lens.radius > 0 ? sampler.branch(Sampler::kLens).next2() : kCenter;
+    const Vec2 lens = frame.optics.lens.radius > 0 ? sampler.branch(Branch::lens).next2() : kCenter;
     const Ray ray = frame.ray(place, lens);
     Footprint differentials;
     if (world.wantsFootprints()) differentials = differentialsAt(frame, place, lens, ray);
     Interfaces inside = tracer.interfacesAt(ray.origin);
     const bool weighs = moments_[now_].integrator->weighsHoles();
-    const Real chance = weighs || !world.hasHoles() ? 0 : sampler.branch(Sampler::kHole).next();
+    const Real chance = weighs || !world.hasHoles() ? 0 : sampler.branch(Branch::cameraHole).next();
     CameraRay camera{ray, tracer.cast(ray, RayKind::camera, inside, chance), std::move(inside), drawn.weight,
                      differentials.get()};
     if (tracer.settings().outlines > 0) camera.ink = inkAt(tracer, camera.hit, place, lens, rules_.size());
@@ -155,7 +155,7 @@ class PixelTracer {
   /// The moment that a sample sees.
   std::size_t momentOf(const Sampler& sampler) const {
     if (moments_.size() == 1) return 0;
-    const Real chosen = sampler.branch(Sampler::kTime).next() * static_cast<Real>(moments_.size());
+    const Real chosen = sampler.branch(Branch::time).next() * static_cast<Real>(moments_.size());
     return std::min(static_cast<std::size_t>(chosen), moments_.size() - 1);
   }
 

@@ -261,7 +261,7 @@ RenderResult render(std::span<const Moment> moments, const Settings& settings, F
   RenderResult result;
   bool outOfMemory = false;
   try {
-    if (film.takesSplats() && rowOf(settings).byChains)
+    if (film.takesSplats() && hasTrait(settings, Trait::byChains))
       chains.emplace(moments, settings, Size{film.width(), film.height()}, job, interrupt);
     if (chains) result.brightnessError = chains->brightnessError();
     job.before = film.samplesDone();

@@ -4,14 +4,14 @@
 #include <cmath>
 
 #include "math/low_discrepancy.h"
-#include "render/integrator.h"
+#include "scene/integrators.h"
 
 namespace trace {
 namespace {
 
 std::uint32_t number(int k) { return static_cast<std::uint32_t>(k); }
 
-/// Independent numbers.
+/// Independent numbers. For comparison with the others; not for pictures, where each of them has less noise.
 Vec2 randomPair(const Draw& d) {
   const std::uint64_t bits = mixBits(d.pixel ^ mixBits(number(d.k)));
   return {unitFromBits(bits), unitFromBits(mixBits(bits))};
@@ -27,7 +27,8 @@ std::uint32_t cellOf(const Draw& d, std::uint32_t count) {
   }
 }
 
-/// One in each cell of a grid, the cells in an order of their own.
+/// One in each cell of a grid, the cells in an order of their own. For pictures as in Cook 1986; not for
+/// edges that are nearly upright or level, because rows and columns are not filled evenly.
 Vec2 jitteredPair(const Draw& d) {
   const std::uint32_t n = number(d.rules.grid()), cell = cellOf(d, n * n);
   const Vec2 within = randomPair(d);
@@ -35,7 +36,7 @@ Vec2 jitteredPair(const Draw& d) {
 }
 
 /// Kensler, Correlated Multi-Jittered Sampling, 2013: the same, and of n x n samples one lies in each of n x
-/// n columns and rows.
+/// n columns and rows. For a square number of samples that is known before; not where more are added later.
 Vec2 multiJitteredPair(const Draw& d) {
   const std::uint32_t n = number(d.rules.grid()), cell = cellOf(d, n * n);
   const std::uint32_t column = permuted(cell % n, n, d.pixel ^ 1), row = permuted(cell / n, n, d.pixel ^ 2);
@@ -43,7 +44,12 @@ Vec2 multiJitteredPair(const Draw& d) {
   return {(cell % n + (row + within.x) / n) / n, (cell / n + (column + within.y) / n) / n};
 }
 
+/// For any number of samples, best 6, 36, 216; not for 2, 4, 8, ... samples of paths, where sobol also
+/// spreads the direction from a vertex together with the point on the lamp.
 Vec2 haltonPair(const Draw& d) { return haltonPoint(number(d.k), d.pixel); }
+/// For paths, best with 2, 4, 8, ... samples; not for so few that noise is visible, where blue is finer. The
+/// grid takes it for all but the camera rays: for pictures of the courses; not for patterns as fine as
+/// pixels.
 Vec2 sobolPair(const Draw& d) { return sobolPoint(number(d.k), d.pixel); }
 Real sobolFirst(const Draw& d) { return sobolPair(d).x; }
 Vec2 sobolSecondPair(const Draw& d) { return sobolPointBeside(number(d.k), d.pixel); }
@@ -59,7 +65,8 @@ constexpr std::uint32_t spread(std::uint32_t v) {
 
 /// Ahmed and Wonka, Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering
 /// of Pixels, 2020: one sequence for all pixels, along a curve whose quarters stand in random order at each
-/// level. What a pixel gets too much, its neighbours get too little.
+/// level. What a pixel gets too much, its neighbours get too little. For a picture of few samples; not where
+/// more are added later.
 Vec2 bluePair(const Draw& d) {
   int digits = 0;  // digits in base 4 of the number of a sample
   while ((std::int64_t{1} << (2 * digits)) < d.rules.samples()) ++digits;
@@ -98,7 +105,9 @@ const GeneratorRow& generatorOf(const Settings& settings) {
   return kGenerators[static_cast<std::size_t>(anyNumber ? SampleKind::sobol : settings.sampling)];
 }
 
-bool subdivides(const Settings& settings) { return settings.subdivide > 0 && !rowOf(settings).throws; }
+bool subdivides(const Settings& settings) {
+  return settings.subdivide > 0 && !hasTrait(settings, Trait::splats);
+}
 
 Subdivision subdivisionOf(const Settings& settings, const Size& size) {
   const bool under = settings.stereo == Stereo::overUnder;

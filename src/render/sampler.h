@@ -11,6 +11,7 @@
 
 #include "image/pixel_filter.h"
 #include "math/noise.h"
+#include "render/branch.h"
 #include "render/render.h"
 
 namespace trace {
@@ -136,7 +137,7 @@ class Sampler {
 
   /// Where in the picture the sample lies, and what it counts.
   FilmSample film() const {
-    return rules_->film(x_, y_, k_, rules_->onGrid() ? Vec2{} : branch(kFilm).next2());
+    return rules_->film(x_, y_, k_, rules_->onGrid() ? Vec2{} : branch(Branch::film).next2());
   }
 
   /// The number of the sample in its pixel.
@@ -171,10 +172,10 @@ class Sampler {
     sampler.dimension_ = 0;
     return sampler;
   }
-
-  /// Branches of a camera ray that are no rays.
-  static constexpr std::uint32_t kFilm = 0xf0000000u, kLens = 0xf0000001u, kTime = 0xf0000002u,
-                                 kHole = 0xf0000003u;
+  /// The numbers of that decision, or of the n-th of several.
+  Sampler branch(Branch decision, std::uint32_t n = 0) const {
+    return branch(static_cast<std::uint32_t>(decision) + n);
+  }
 
  private:
   Draw nextDraw() { return drawAt(dimension_++); }

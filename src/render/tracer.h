@@ -9,7 +9,7 @@
 #include "render/hit.h"
 #include "render/ray_tree.h"
 #include "render/world.h"
-#include "scene/settings.h"
+#include "scene/integrators.h"
 
 namespace trace {
 
@@ -17,7 +17,7 @@ class Tracer {
  public:
   /// `tree`, if any, takes every ray from now on.
   Tracer(const World& world, const Settings& settings, RayTree* tree = nullptr)
-      : world_(world), settings_(settings), tree_(tree) {}
+      : world_(world), settings_(settings), traits_(traitsOf(settings)), tree_(tree) {}
 
   /// The first surface that a ray of this kind meets. `inside` is what the ray starts in, and becomes what it
   /// is in when it gets there: with nested glass a ray walks on through surfaces at which nothing changes.
@@ -162,20 +162,13 @@ class Tracer {
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside, Real& chance);
   Interfaces startOn(const Hit& from, const Ray& ray, const Interfaces& inside);
   Color visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Real wavelength);
-  /// It sends rays into the lobes of surfaces, however often light is scattered.
-  bool followsLobes() const {
-    const IntegratorKind kind = settings_.integrator;
-    return kind == IntegratorKind::path || kind == IntegratorKind::photon || kind == IntegratorKind::mlt ||
-           kind == IntegratorKind::bdpt;
-  }
-  /// Photons, or paths from lights, bring the light that the glass bends. Whitted's bring it to surfaces
-  /// only. Of rough glass, rays that are followed into its lobe sample lights where they hit it: a shadow ray
-  /// through it would count them twice.
+  /// Photons, or paths from lights, bring the light that the glass bends: to surfaces only, where light is
+  /// not traced in media. Rays that bounce sample the lobe of rough glass, and lights where they hit
+  /// something: a shadow ray through it would count these twice.
   bool gathers(const Bsdf& bsdf) const {
-    if (joins_ || (followsLobes() && isGlossy(bsdf))) return true;
+    if (joins_ || (traits_.has(Trait::bounces) && isGlossy(bsdf))) return true;
     if (whitted(bsdf).passage == Passage::straight) return false;
-    if (isBidirectional(settings_) || settings_.integrator == IntegratorKind::photon) return true;
-    return settings_.integrator == IntegratorKind::whitted && settings_.caustics > 0 && !midair_;
+    return traits_.has(Trait::bringsCaustics) && (traits_.has(Trait::scattersInMedia) || !midair_);
   }
   Color passed(const Ray& ray, Real distance, Interfaces* inside);
   [[gnu::noinline]] Color filtered(const Ray& ray, Real distance, Interfaces* inside);
@@ -183,6 +176,7 @@ class Tracer {
 
   const World& world_;
   const Settings& settings_;
+  Traits traits_;
   RayTree* tree_;
   int current_ = kNoNode;  ///< the ray being followed
   int last_ = kNoNode;     ///< the one cast or left last, until a term takes it

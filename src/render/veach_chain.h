@@ -1,4 +1,7 @@
 // Chains that walk among paths of light and change them place by place (Veach and Guibas 1997).
+//
+// Use them if all light passes a gap: a path that has found it keeps it. Not for clear caustics, where the
+// other chains are faster, nor for what veach_refuse.cpp lists.
 #pragma once
 
 #include <array>

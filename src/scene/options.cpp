@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "geometry/shape.h"
 #include "scene/conventions.h"
+#include "scene/integrators.h"
 #include "scene/option_words.h"
 #include "scene/quality.h"
 #include "scene/scene_features.h"
@@ -28,9 +29,6 @@ template <>
 constexpr std::array<std::string_view, 2> kNames<Accel>{"bvh", "none"};
 template <>
 constexpr std::array<std::string_view, 4> kNames<Quality>{"none", "draft", "good", "final"};
-template <>
-constexpr std::array<std::string_view, 9> kNames<IntegratorKind>{
-    "whitted", "path", "direct", "bdpt", "mlt", "photon", "occlusion", "normals", "cost"};
 template <>
 constexpr std::array<std::string_view, 3> kNames<Chains>{"bdpt", "path", "veach"};
 template <>
@@ -94,11 +92,19 @@ constexpr std::array<std::string_view, 3> kNames<PassFormat>{"exr", "png", "same
 template <>
 constexpr std::array<std::string_view, 2> kNames<PassDepth>{"view", "ray"};
 
-/// Names that are known only at run time.
+/// Names that other tables have.
 std::span<const std::string_view> shapeNames() {
   static const std::vector<std::string_view> kAll = [] {
     std::vector<std::string_view> all;
     for (const ShapeType& type : shapeTypes()) all.push_back(type.keyword);
+    return all;
+  }();
+  return kAll;
+}
+std::span<const std::string_view> integratorNames() {
+  static const std::vector<std::string_view> kAll = [] {
+    std::vector<std::string_view> all;
+    for (const IntegratorRow& row : integrators()) all.push_back(row.name);
     return all;
   }();
   return kAll;
@@ -109,6 +115,8 @@ template <class Enum>
 std::span<const std::string_view> namesOf() {
   if constexpr (std::is_same_v<Enum, ShapeKind>)
     return shapeNames();
+  else if constexpr (std::is_same_v<Enum, IntegratorKind>)
+    return integratorNames();
   else if constexpr (std::is_same_v<Enum, SceneFeature>)
     return sceneFeatureNames();
   else
@@ -325,9 +333,16 @@ struct Text {
   Repeats repeats = Repeats::picture;
   double least = 0, most = kNoLimit;
   std::string_view unit = "";
-  std::string_view integrators = "all";
+  EnumSet<IntegratorKind> integrators = everyIntegrator();
   bool extra = false;
 };
+
+/// Integrators that options concern, besides sets by a trait.
+using Integrators = EnumSet<IntegratorKind>;
+constexpr Integrators kWhitted{IntegratorKind::whitted};
+constexpr Integrators kOcclusion{IntegratorKind::occlusion};
+/// All that show light.
+Integrators lit() { return kWhitted | integratorsWith(Trait::meetsLamps); }
 
 template <auto Member>
 Option row(const Text& t) {
@@ -516,7 +531,7 @@ const std::array kOptions{
                                .source = "Hall and Greenberg 1983, adaptive depth",
                                .least = 0,
                                .most = 1,
-                               .integrators = "whitted",
+                               .integrators = kWhitted,
                                .extra = true}),
     row<&Settings::fireflyLimit>(
         {.name = "firefly-limit",
@@ -526,7 +541,7 @@ const std::array kOptions{
          .source = "docs/path-tracing.md",
          .least = 0,
          .most = 1e9,
-         .integrators = "path, direct, bdpt, mlt, photon",
+         .integrators = integratorsWith(Trait::meetsLamps),
          .extra = true}),
     row<&Settings::lightVertices>(
         {.name = "light-vertices",
@@ -535,7 +550,7 @@ const std::array kOptions{
          .source = "Veach 1997, chapter 10; docs/bidirectional.md",
          .least = -1,
          .most = 1000,
-         .integrators = "bdpt",
+         .integrators = integratorsWith(Trait::joinsEnds),
          .extra = true}),
     row<&Settings::cameraVertices>({.name = "camera-vertices",
                                     .group = "Tracing",
@@ -544,14 +559,14 @@ const std::array kOptions{
                                     .source = "Veach 1997, chapter 10; docs/bidirectional.md",
                                     .least = -1,
                                     .most = 1000,
-                                    .integrators = "bdpt",
+                                    .integrators = integratorsWith(Trait::joinsEnds),
                                     .extra = true}),
     row<&Settings::unweighted>(
         {.name = "unweighted",
          .group = "Tracing",
          .help = "shows a strategy without its MIS weight; use it with --light-vertices or --camera-vertices",
          .source = "Veach 1997, chapter 9; docs/bidirectional.md",
-         .integrators = "bdpt",
+         .integrators = integratorsWith(Trait::joinsEnds),
          .extra = true}),
     row<&Settings::chains>(
         {.name = "chains",
@@ -559,13 +574,13 @@ const std::array kOptions{
          .help = "state space of the Markov chains: the samples of path, those of bdpt with one strategy "
                  "each, or paths that Veach's mutations change (veach)",
          .source = "Hachisuka, Kaplanyan and Dachsbacher 2014; Veach and Guibas 1997; docs/metropolis.md",
-         .integrators = "mlt",
+         .integrators = integratorsWith(Trait::byChains),
          .extra = true}),
     row<&Settings::mutations>({.name = "mutations",
                                .group = "Tracing",
                                .help = "mutations of --chains veach, apart from new paths (--move-anywhere)",
                                .source = "Veach and Guibas 1997, section 5; docs/metropolis.md",
-                               .integrators = "mlt"}),
+                               .integrators = integratorsWith(Trait::byChains)}),
     row<&Settings::chainStarts>(
         {.name = "chain-starts",
          .group = "Tracing",
@@ -574,7 +589,7 @@ const std::array kOptions{
          .least = 1,
          .most = 1e8,
          .unit = "samples",
-         .integrators = "mlt"}),
+         .integrators = integratorsWith(Trait::byChains)}),
     row<&Settings::moveAnywhere>({.name = "move-anywhere",
                                   .group = "Tracing",
                                   .help = "probability of a large step, which replaces the whole sample; the "
@@ -582,14 +597,14 @@ const std::array kOptions{
                                   .source = "Kelemen et al. 2002",
                                   .least = 0.01,
                                   .most = 1,
-                                  .integrators = "mlt"}),
+                                  .integrators = integratorsWith(Trait::byChains)}),
     row<&Settings::moveSize>({.name = "move-size",
                               .group = "Tracing",
                               .help = "size of a small step, as a part of the range",
                               .source = "docs/metropolis.md",
                               .least = 1e-6,
                               .most = 1,
-                              .integrators = "mlt"}),
+                              .integrators = integratorsWith(Trait::byChains)}),
     row<&Settings::lampSamples>({.name = "lamp-samples",
                                  .group = "Tracing",
                                  .help = "shadow rays from each hit point to emissive objects, and to a sky "
@@ -598,7 +613,7 @@ const std::array kOptions{
                                  .least = 0,
                                  .most = 4096,
                                  .unit = "rays",
-                                 .integrators = "whitted",
+                                 .integrators = kWhitted,
                                  .extra = true}),
     row<&Settings::ambientOcclusion>({.name = "ambient-occlusion",
                                       .group = "Tracing",
@@ -608,7 +623,7 @@ const std::array kOptions{
                                       .least = 0,
                                       .most = 4096,
                                       .unit = "rays",
-                                      .integrators = "whitted",
+                                      .integrators = integratorsWith(Trait::addsAmbient),
                                       .extra = true}),
     row<&Settings::occlusionReach>(
         {.name = "occlusion-reach",
@@ -618,7 +633,7 @@ const std::array kOptions{
          .least = 0,
          .most = 1e9,
          .unit = "units",
-         .integrators = "whitted, occlusion"}),
+         .integrators = integratorsWith(Trait::addsAmbient) | kOcclusion}),
     row<&Settings::photons>(
         {.name = "photons",
          .group = "Tracing",
@@ -627,7 +642,7 @@ const std::array kOptions{
          .least = 1,
          .most = 50e6,
          .unit = "photons",
-         .integrators = "photon"}),
+         .integrators = integratorsWith(Trait::photons)}),
     row<&Settings::photonPasses>(
         {.name = "photon-passes",
          .group = "Tracing",
@@ -637,13 +652,13 @@ const std::array kOptions{
          .least = 1,
          .most = 1000,
          .unit = "maps",
-         .integrators = "photon"}),
+         .integrators = integratorsWith(Trait::photons)}),
     row<&Settings::finalGather>({.name = "final-gather",
                                  .group = "Tracing",
                                  .help = "estimate indirect light by rays whose hit points use the photon "
                                          "map; grain in place of blotches and blur",
                                  .source = "Jensen 1996; docs/photons.md",
-                                 .integrators = "photon",
+                                 .integrators = integratorsWith(Trait::photons),
                                  .extra = true}),
     row<&Settings::irradianceCache>(
         {.name = "irradiance-cache",
@@ -653,7 +668,7 @@ const std::array kOptions{
          .source = "Ward, Rubinstein and Clear 1988; docs/photons.md",
          .least = 0,
          .most = 1,
-         .integrators = "photon",
+         .integrators = integratorsWith(Trait::photons),
          .extra = true}),
     row<&Settings::irradianceRays>({.name = "irradiance-rays",
                                     .group = "Tracing",
@@ -662,14 +677,14 @@ const std::array kOptions{
                                     .least = 4,
                                     .most = 65536,
                                     .unit = "rays",
-                                    .integrators = "photon"}),
+                                    .integrators = integratorsWith(Trait::photons)}),
     row<&Settings::smoothTerminator>(
         {.name = "smooth-terminator",
          .group = "Tracing",
          .help = "shadow rays from a mesh start on the smooth surface of its vertex normals: the line "
                  "between light and shade shows no facets",
          .source = "Hanika 2021; docs/smooth-terminator.md",
-         .integrators = "whitted, path, direct, bdpt, mlt, photon, occlusion",
+         .integrators = lit() | kOcclusion,
          .extra = true}),
     row<&Settings::caustics>(
         {.name = "caustics",
@@ -680,7 +695,7 @@ const std::array kOptions{
          .least = 0,
          .most = 50e6,
          .unit = "photons",
-         .integrators = "whitted, photon",
+         .integrators = kWhitted | integratorsWith(Trait::photons),
          .extra = true}),
     row<&Settings::causticRadius>(
         {.name = "caustic-radius",
@@ -691,7 +706,7 @@ const std::array kOptions{
          .least = 0,
          .most = 1e9,
          .unit = "units",
-         .integrators = "whitted, photon"}),
+         .integrators = kWhitted | integratorsWith(Trait::photons)}),
     row<&Settings::causticTexels>({.name = "caustic-texels",
                                    .group = "Tracing",
                                    .help = "Arvo's illumination maps: texels a side of a map of caustics for "
@@ -700,7 +715,7 @@ const std::array kOptions{
                                    .least = 0,
                                    .most = 4096,
                                    .unit = "texels",
-                                   .integrators = "whitted",
+                                   .integrators = kWhitted,
                                    .extra = true}),
     row<&Settings::nestedGlass>(
         {.name = "nested-glass",
@@ -731,7 +746,7 @@ const std::array kOptions{
                             .help = "rough metal, varnish and glass trace one random ray of their lobe, for "
                                     "blurred reflections; needs many samples a pixel",
                             .source = "Cook, Porter and Carpenter 1984; docs/materials.md",
-                            .integrators = "whitted",
+                            .integrators = kWhitted,
                             .extra = true}),
     row<&Settings::models>(
         {.name = "models",
@@ -939,7 +954,7 @@ const std::array kOptions{
          .least = 0,
          .most = 1e6,
          .unit = "per unit",
-         .integrators = "whitted, path, direct, bdpt, mlt, photon",
+         .integrators = lit(),
          .extra = true}),
     row<&Settings::fogColor>(
         {.name = "fog-color",
@@ -948,7 +963,7 @@ const std::array kOptions{
          .source = "",
          .least = 0,
          .most = 1,
-         .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
+         .integrators = lit()}),
     row<&Settings::fogHeight>(
         {.name = "fog-height",
          .group = "Fog",
@@ -957,7 +972,7 @@ const std::array kOptions{
          .least = 0,
          .most = 1e9,
          .unit = "units",
-         .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
+         .integrators = lit()}),
     row<&Settings::fogForward>({.name = "fog-forward",
                                 .group = "Fog",
                                 .help = "mean cosine of scattering: from -1, backward, over 0, isotropic, to "
@@ -965,7 +980,7 @@ const std::array kOptions{
                                 .source = "Henyey and Greenstein 1941",
                                 .least = -1,
                                 .most = 1,
-                                .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
+                                .integrators = lit()}),
     row<&Settings::fogSamples>({.name = "fog-samples",
                                 .group = "Fog",
                                 .help = "points on every ray that sample the lights, in fog and media",
@@ -973,7 +988,7 @@ const std::array kOptions{
                                 .least = 1,
                                 .most = 10000,
                                 .unit = "points",
-                                .integrators = "whitted"}),
+                                .integrators = kWhitted}),
     row<&Settings::mediumDepth>({.name = "medium-depth",
                                  .group = "Fog",
                                  .help = "largest number of scattering events in fog, smoke, clouds and milk",
@@ -981,7 +996,7 @@ const std::array kOptions{
                                  .least = 1,
                                  .most = 10000,
                                  .unit = "times",
-                                 .integrators = "path, bdpt, mlt, photon"}),
+                                 .integrators = integratorsWith(Trait::scattersInMedia)}),
     row<&Settings::subsurfaceSamples>({.name = "subsurface-samples",
                                        .group = "Fog",
                                        .help = "points at which light enters marble, milk or skin, for every "
@@ -990,7 +1005,7 @@ const std::array kOptions{
                                        .least = 1,
                                        .most = 10000,
                                        .unit = "points",
-                                       .integrators = "whitted, path, direct, bdpt, mlt, photon"}),
+                                       .integrators = lit()}),
     row<&Settings::like>({.name = "like",
                           .group = "Conventions",
                           .help = "conventions of a course: sets every option of this group",

@@ -20,11 +20,11 @@ struct Option {
 
   std::string_view name;  ///< flag without "--", keyword in a scene file's settings { }
   std::string_view group;
-  std::string_view unit;         ///< "" for pure numbers
-  double least, most;            ///< least and most of numbers
-  std::string_view help;         ///< one sentence, no full stop
-  std::string_view source;       ///< where the choice comes from; "" if it is Trace's own
-  std::string_view integrators;  ///< which it concerns: "all" or names
+  std::string_view unit;                ///< "" for pure numbers
+  double least, most;                   ///< least and most of numbers
+  std::string_view help;                ///< one sentence, no full stop
+  std::string_view source;              ///< where the choice comes from; "" if it is Trace's own
+  EnumSet<IntegratorKind> integrators;  ///< which it concerns
   Repeats repeats;
   bool extra;  ///< an extension that is off by default
   Kind kind;
@@ -32,6 +32,9 @@ struct Option {
 
   std::string (*get)(const Settings&);
   void (*set)(const Option&, Settings&, std::string_view value);
+
+  /// It concerns the integrator of the settings.
+  bool concerns(const Settings& settings) const { return integrators.has(settings.integrator); }
 
   /// Throws Error(Fault::usage), which says what was expected and found.
   void assign(Settings& settings, std::string_view value) const { set(*this, settings, value); }

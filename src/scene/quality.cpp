@@ -8,6 +8,7 @@
 #include "base/match.h"
 #include "base/text.h"
 #include "geometry/shapes/csg_tree.h"
+#include "scene/integrators.h"
 #include "scene/picture_size.h"
 
 namespace trace {
@@ -40,10 +41,13 @@ std::vector<Choice> choicesOfRow(const QualityRow& row) {
           choice("integrator", "path")};
 }
 
-/// It is a point, or too small for paths to meet, or rays do not see it.
+/// It is a lamp, which is too small for paths to meet at random, or rays do not see it.
 bool isMissedByPaths(const Light& light) {
   return match(light, [](const auto& l) {
-    if constexpr (requires { l.visible; }) return !(l.visible && l.hasSize());
+    if constexpr (requires { l.quadratic; })
+      return true;
+    else if constexpr (requires { l.visible; })
+      return !(l.visible && l.hasSize());
     return requires { l.position; }
     || requires { l.direction; };
   });
@@ -110,7 +114,7 @@ Settings settingsFor(const Scene& scene, std::initializer_list<std::span<const C
   if (settings.quality == Quality::none || isChosen("integrator", layers)) return settings;
   settings.integrator = integratorFor(scene, settings);
   // How exact a light image is is not known, so that nothing can be denoised by it.
-  if (isBidirectional(settings) && !isChosen("denoise", layers)) settings.denoise = false;
+  if (hasLightImage(settings) && !isChosen("denoise", layers)) settings.denoise = false;
   return settings;
 }
 

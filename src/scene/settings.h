@@ -17,6 +17,7 @@
 namespace trace {
 
 enum class Accel { bvh, none };
+/// The integrator: a row of integrators.cpp.
 enum class IntegratorKind { whitted, path, direct, bdpt, mlt, photon, occlusion, normals, cost };
 /// The state space of the chains of mlt: an integrator's samples, or paths, whose vertices are mutated.
 enum class Chains { bdpt, path, veach };
@@ -217,17 +218,6 @@ struct Settings {
 /// When the moment of that number is, in seconds: while the shutter is open they lie evenly.
 inline Real timeOfMoment(const Settings& s, int moment) {
   return s.time + s.shutter * (moment + 0.5) / s.moments;
-}
-
-/// Paths start at lights, too: light through glass is found by them, and no shadow ray passes it.
-inline bool isBidirectional(const Settings& s) {
-  return s.integrator == IntegratorKind::bdpt ||
-         (s.integrator == IntegratorKind::mlt && s.chains == Chains::bdpt);
-}
-
-/// Chains of mlt change paths place by place.
-inline bool changesPaths(const Settings& s) {
-  return s.integrator == IntegratorKind::mlt && s.chains == Chains::veach;
 }
 
 inline Optics opticsOf(const Settings& s) {

@@ -10,6 +10,7 @@
 #include "app/typed_region.h"
 #include "base/text.h"
 #include "scene/conventions.h"
+#include "scene/integrators.h"
 #include "scene/option_words.h"
 #include "studio/actions.h"
 #include "studio/field_editor.h"
@@ -53,8 +54,8 @@ void tooltip(const Studio& studio, const Option& option) {
   ImGui::TextColored(studio.palette().accent, "--%s", option.name.data());
   ImGui::TextUnformatted(option.help.data(), option.help.data() + option.help.size());
   ImGui::TextDisabled("%s", rangeText(option).c_str());
-  if (option.integrators != "all")
-    ImGui::TextDisabled("concerns %s", std::string(option.integrators).c_str());
+  if (!(option.integrators == everyIntegrator()))
+    ImGui::TextDisabled("concerns %s", namesOfIntegrators(option.integrators).c_str());
   if (!option.source.empty()) ImGui::TextDisabled("source: %s", std::string(option.source).c_str());
   ImGui::TextDisabled("chosen by: %s", studio.workspace.document.chooser(option).c_str());
   ImGui::PopTextWrapPos();

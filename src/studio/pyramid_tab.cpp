@@ -118,7 +118,7 @@ void updateWays(Studio& studio) {
   auto session = studio.workspace.render.session();
   view.waits = studio.workspace.render.state().working();
   if (view.waits) session.reset();
-  if (session && session->settings().integrator != IntegratorKind::bdpt) view.alone.reset();
+  if (session && !showsStrategies(session->settings())) view.alone.reset();
   if (view.open || view.alone) view.all.maker.want({session, view.unweighted, view.places});
   view.one.maker.want(view.alone ? PyramidPlan{session, view.unweighted, 0, view.alone} : PyramidPlan{});
   const Settings settings = studio.workspace.shownSettings();

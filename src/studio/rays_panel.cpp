@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "scene/integrators.h"
 #include "studio/landmarks.h"
 #include "studio/panels.h"
 #include "studio/ray_rows.h"
@@ -169,7 +170,7 @@ void updatePixel(Studio& studio) {
 /// The contribution of the light image to the pixel besides its rays; "" where there is none.
 std::string lightImageAt(const TracedPixel& pixel) {
   const Film& film = pixel.session->film();
-  if (!film.takesSplats() || rowOf(pixel.session->settings()).byChains) return "";
+  if (!film.takesSplats() || hasTrait(pixel.session->settings(), Trait::byChains)) return "";
   const Color light = film.ofSplats(pixel.x, pixel.y);
   return "The light image (t = 1) adds " + channels(light) + " to this pixel.";
 }
@@ -251,8 +252,8 @@ void drawRays(Studio& studio) {
       if (view.chains.offered()) tab("Chain", drawChain);
       tab("Tree", drawTree);
       tab("Ray", drawNumbers);
-      if (isBidirectional(pixel->session->settings())) tab("Ways", drawWays);
-      if (pixel->session->settings().integrator == IntegratorKind::bdpt) tab("Pyramid", drawPyramid);
+      if (hasTrait(pixel->session->settings(), Trait::joinsEnds)) tab("Ways", drawWays);
+      if (showsStrategies(pixel->session->settings())) tab("Pyramid", drawPyramid);
       tab("Difference", drawDifference);
       ImGui::EndTabBar();
     }

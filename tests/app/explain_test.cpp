@@ -33,7 +33,8 @@ std::size_t explainAll(const std::string& file, std::vector<Choice> choices, int
   choices.insert(choices.begin(), {"photons", kFewPhotons, {}});
   std::optional<Session> opened(std::in_place);
   opened->open(file, choices);
-  if (rowOf(opened->settings()).byChains) {  // whose pixels have no samples: the command explains path's
+  if (hasTrait(opened->settings(),
+               Trait::byChains)) {  // whose pixels have no samples: the command explains path's
     choices.push_back({"integrator", "path", {}});
     opened.emplace().open(file, choices);
   }

@@ -131,7 +131,7 @@ TEST(PathWays, WhereThereAreNoneItIsSaidWhy) {
   traceWays(traced, 12, 20, IntegratorKind::bdpt);
   const RayTree& tree = traced.explained.tree;
   Settings settings = traced.session.settings();
-  EXPECT_TRUE(isBidirectional(settings));
+  EXPECT_TRUE(hasTrait(settings, Trait::joinsEnds));
   EXPECT_EQ(whyNoWays(tree, settings), "No paths were joined in this sample. Another sample may have some.");
   settings.cameraVertices = 3;
   EXPECT_EQ(
@@ -147,7 +147,7 @@ TEST(PathWays, WhereThereAreNoneItIsSaidWhy) {
   EXPECT_EQ(whyNoWays(sky, settings),
             "The camera ray hit nothing, so there is no vertex to connect with a light.");
   settings.integrator = IntegratorKind::path;
-  EXPECT_FALSE(isBidirectional(settings));
+  EXPECT_FALSE(hasTrait(settings, Trait::joinsEnds));
 }
 
 }  // namespace

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include "app/edits.h"
+#include "base/file.h"
 #include "shading/texture_flaws.h"
 #include "shading/textures/brick.h"
 #include "shading/textures/checker.h"
 #include "shading/textures/formula.h"
 #include "shading/textures/image_map.h"
 #include "shading/textures/noise.h"
+#include "support/exr.h"
+#include "support/folder.h"
 
 namespace trace {
 namespace {
@@ -95,7 +98,22 @@ TEST(TextureEdits, AFileThatWasNamedIsLacking) {
   EXPECT_FALSE(lacksFiles(scene));
   setTexture(scene.materials[0].textures, "diffuse", pictureTexture("no_such_file.png"));
   EXPECT_TRUE(lacksFiles(scene));
-  EXPECT_THROW(readLackingFiles(scene), Error);
+  Messages messages;
+  EXPECT_THROW(readLackingFiles(scene, messages), Error);
+}
+
+TEST(TextureEdits, AFileThatIsOddIsTakenAndTold) {
+  const test::Folder folder;
+  writeFile(folder / "layers.exr", test::exrOf({{"", {{"B", 1.f}, {"G", 1.f}, {"R", 1.f}, {"Z", 2.f}}}}));
+  Scene scene;
+  scene.file = folder / "scene.ray";
+  scene.materials.emplace_back();
+  setTexture(scene.materials[0].textures, "diffuse", pictureTexture("layers.exr"));
+  Messages messages;
+  readLackingFiles(scene, messages);
+  EXPECT_FALSE(lacksFiles(scene));
+  ASSERT_EQ(messages.all().size(), 1u);
+  EXPECT_NE(messages.all()[0].what.find("Z"), std::string::npos) << messages.all()[0].what;
 }
 
 TEST(TextureEdits, ALampLacksItsPhotometry) {

@@ -37,7 +37,15 @@ examples/explain_a_pixel "$scene" 32 20 >log 2>&1 || fail "explain_a_pixel"
 grep -q "sum to the picture's pixel, bit for bit" log || fail "the rays do not agree"
 examples/passes "$scene" >log 2>&1 || fail "passes"
 grep -q '^depth [0-9.]*, red [0-9.]*$' log || fail "no depth"
-for picture in open.png built.png part.png; do [[ -s $picture ]] || fail "no $picture"; done
+examples/polished_to_rough >log 2>&1 || fail "polished_to_rough"
+for picture in open.png built.png part.png gold-5.png gold-20.png gold-60.png; do [[ -s $picture ]] || fail "no $picture"; done
+# The how-to shows this program, as it is, and a CMakeLists.txt that builds it.
+mkdir -p pasted
+awk '/^```/ { on = /^```cpp$/; next } on' "$checkout/docs/how-to/from-cpp.md" >pasted/polished_to_rough.cpp
+awk '/^```/ { on = /^```cmake$/; next } on' "$checkout/docs/how-to/from-cpp.md" >pasted/CMakeLists.txt
+diff "$checkout/examples/cpp/polished_to_rough.cpp" pasted/polished_to_rough.cpp >log || fail "docs/how-to/from-cpp.md shows another program"
+cmake -S pasted -B pasted/build -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$folder/usr" >log 2>&1 &&
+  cmake --build pasted/build >log 2>&1 || fail "building what docs/how-to/from-cpp.md says"
 # What goes wrong is said as the program says it.
 ! examples/open_and_render "$checkout/tests/corpus/ray/no_such.ray" x.png >log 2>&1 || fail "a missing scene is rendered"
 grep -q 'no_such.ray' log || fail "the message does not name the file"

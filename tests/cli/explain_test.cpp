@@ -288,7 +288,8 @@ TEST_F(Explain, EveryFormOfEverySceneAndIntegratorIsThereAndAgrees) {
     const std::string& file = files[at];
     std::list<Session> sessions;  // the first is kept: what is the same is shared with it
     for (const IntegratorRow& row : integrators()) {
-      if (row.byChains) continue;  // whose pixels have no samples: the command explains those of path
+      if (row.traits.has(Trait::byChains))
+        continue;  // whose pixels have no samples: the command explains those of path
       SCOPED_TRACE(file + " " + std::string(row.name));
       std::vector<Choice> choices;
       for (const auto& [option, value] : {std::pair{"integrator", row.name},

@@ -10,6 +10,7 @@
 
 #include "base/file.h"
 #include "base/read_scope.h"
+#include "base/sanitized.h"
 #include "formats/format.h"
 #include "formats/ray/ray_writer.h"
 #include "geometry/mesh/mesh.h"
@@ -111,6 +112,20 @@ TEST(Robustness, WhatWasReadIsWrittenAndReadAgain) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
       EXPECT_EQ(back.objects[i].worldFromObject, scene.objects[i].worldFromObject) << i;
     EXPECT_EQ(triangles(back), triangles(scene));
+  }
+}
+
+TEST(Robustness, AFileThatNoRayFileCanNameIsRefused) {
+  Messages messages;
+  const Scene scene = readScene(
+      "quoted.iv", "#Inventor V2.1 ascii\nSeparator { Texture2 { filename \"a\\\"b.png\" } Cube { } }",
+      messages);
+  try {
+    writeRay(scene, "out.ray", {}, messages);
+    ADD_FAILURE() << "a file of another name was written";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string_view(error.what()).find("without quotation marks"), std::string_view::npos)
+        << error.what();
   }
 }
 

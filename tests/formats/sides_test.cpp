@@ -4,6 +4,7 @@
 #include <string>
 
 #include "formats/format.h"
+#include "formats/model.h"
 
 namespace trace::sides_test {
 namespace {
@@ -47,6 +48,21 @@ TEST(Sides, ASceneSaysWhich) {
   const std::string header = "SBT-raytracer 1.0 sphere { material = { ";
   EXPECT_EQ(sidesOf("a.ray", header + "} }"), ShadedSides::front);
   EXPECT_EQ(sidesOf("a.ray", header + "sides = both; } }"), ShadedSides::both);
+}
+
+TEST(Sides, OfTheKindTrace1AreBoth) {
+  EXPECT_EQ(sidesOf("a.ray", "Trace 1\nbox { }"), ShadedSides::both);
+  EXPECT_EQ(sidesOf("a.ray", "Trace 1\nbox { material = { diffuse = (1, 0, 0) } }"), ShadedSides::both);
+  EXPECT_EQ(sidesOf("a.ray", "Trace 1\nbox { material = { library = oak } }"), ShadedSides::both);
+  EXPECT_EQ(sidesOf("a.ray", "Trace 1\nbox { material = { model = ward } }"), ShadedSides::both);
+  EXPECT_EQ(sidesOf("a.ray", "Trace 1\nbox { material = { library = oak; sides = front } }"),
+            ShadedSides::front);
+}
+
+TEST(Sides, OfAnObjectOfWhichNothingIsGivenAreThoseOfAGreyOne) {
+  Messages messages;
+  const Scene scene = readScene("a.ray", "Trace 1\nbox { }", messages);
+  EXPECT_EQ(scene.materials.at(scene.objects.at(0).material).model, plainMaterial().model);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@ import inspect
 import json
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import sys
@@ -231,3 +232,13 @@ def test_notebooks_run(name, tmp_path):
                             env={**os.environ, "TRACE_SMALL": "1"}, timeout=600)
     assert result.returncode == 0, result.stderr
     assert result.stdout.strip()
+
+
+def test_the_how_to_works_when_pasted(tmp_path, monkeypatch, capsys):
+    page = (CHECKOUT / "docs/how-to/from-python.md").read_text()
+    code = "\n".join(re.findall(r"^```python\n(.*?)^```$", page, re.M | re.S))
+    code = re.sub(r"width=\d+", "width=24", code).replace("(80, 60)", "(12, 9)")  # small pictures, and their middle
+    monkeypatch.chdir(tmp_path)
+    exec(compile(code, "from-python.md", "exec"), {})
+    assert tr.read("gold.png").shape == (18, 72, 3) and (tmp_path / "sheet.png").stat().st_size
+    assert "bit for bit" in capsys.readouterr().out

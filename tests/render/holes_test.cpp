@@ -233,7 +233,8 @@ TEST(Holes, MaterialsOfCornersCountByWhatIsThereOfThem) {
 
 TEST(Holes, AreExplained) {
   for (const IntegratorRow& row : integrators()) {
-    if (row.byChains || row.kind == IntegratorKind::cost) continue;  // these are not sums of a pixel's rays
+    if (row.traits.has(Trait::byChains) || row.kind == IntegratorKind::cost)
+      continue;  // these are not sums of a pixel's rays
     SCOPED_TRACE(row.name);
     Scene scene = floorAndLamps();
     add(scene, Square{}, at(0, 0, 1) * Affine::scaling({9, 9, 1}), Conductor{}, 0.4);
@@ -246,7 +247,7 @@ TEST(Holes, AreExplained) {
     for (int y = 0; y < 12; y += 3)
       for (int k = 0; k < 4; ++k) {
         const Explanation e = explain(world, *integrator, settings, {12, 12}, 5, y, k);
-        if (!row.throws) {
+        if (!row.traits.has(Trait::splats)) {
           EXPECT_EQ(e.pixel, rendered.at(5, y));
         }
         EXPECT_TRUE(sumsUp(e.tree));

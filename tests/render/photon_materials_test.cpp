@@ -148,7 +148,7 @@ TEST(PhotonMaterials, EachLobeRestsInOneMap) {
         comparison.compare(
             surface.name + (through ? " around" : " above") + (light == Light::lamp ? " a lamp" : " a light"),
             sceneOf({"", surface.model, {}}, light, through),
-            fibres ? settingsOf(IntegratorKind::path, 256) : settingsOf(IntegratorKind::bdpt, 64));
+            fibres ? settingsOf(IntegratorKind::path, 256) : settingsOf(IntegratorKind::bdpt, 32));
     }
   EXPECT_GT(comparison.size(), 150u);
 }

@@ -164,7 +164,7 @@ TEST(Photon, TheSameBitsForAnyNumberOfThreadsAndExplained) {
     const World world = build(scene, settings);
     const auto integrator = integratorOf(world, settings);
     std::size_t photons = 0;
-    for (int n = 0; n < 24 * 24; n += 3) {  // one gathering ray in fifty or so meets places with photons
+    for (int n = 0; n < 24 * 24; n += 7) {  // one gathering ray in fifty or so meets places with photons
       const Explanation e = explain(world, *integrator, settings, {24, 24}, n % 24, n / 24, n % 4);
       EXPECT_EQ(e.pixel, one.at(n % 24, n / 24)) << n;
       EXPECT_TRUE(sumsUp(e.tree)) << n;

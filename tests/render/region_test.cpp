@@ -51,7 +51,8 @@ void expectTheWholePicturesBits(const Scene& scene, Settings settings, const std
 
 TEST(Region, HasTheBitsOfTheWholePictureByEveryIntegrator) {
   for (const IntegratorRow& row : integrators()) {
-    if (row.byChains) continue;  // whose light walks about in the region alone: docs/metropolis.md
+    if (row.traits.has(Trait::byChains))
+      continue;  // whose light walks about in the region alone: docs/metropolis.md
     expectTheWholePicturesBits(room(), settingsOf(row.kind), std::string(row.name));
   }
 }

@@ -60,7 +60,7 @@ TEST(TwoSides, EveryIntegratorShowsTheBackAsTheFront) {
   const Phong matt = diffuse(Color(0.7, 0.5, 0.3));
   for (const IntegratorRow& row : integrators()) {
     SCOPED_TRACE(std::string(row.name));
-    const bool looks = row.kind == IntegratorKind::cost || row.kind == IntegratorKind::normals;
+    const bool looks = row.traits.has(Trait::showsData);
     for (const Real normals : {0.0, 1.0, -1.0}) {
       const auto show = [&](bool away, ShadedSides sides) {
         return mean(picture(lit(panel(away, normals), matt, sides), smallSettings(row.kind)));

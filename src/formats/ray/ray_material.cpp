@@ -262,7 +262,9 @@ void Materials::fromLibrary(Block& block, const Item& value) {
     return;
   }
   std::string own = std::move(block.material.name);
+  const ShadedSides sides = findings_.isOfKind() ? block.material.sides : found->sides;
   block.material = *found;
+  block.material.sides = sides;
   block.material.name = std::move(own);
 }
 

@@ -25,7 +25,9 @@ inline constexpr std::string_view kModel = "model";
 
 class Materials {
  public:
-  explicit Materials(Findings& findings) : findings_(findings), textures_(findings) {}
+  explicit Materials(Findings& findings) : findings_(findings), textures_(findings) {
+    if (findings.isOfKind()) current.sides = ShadedSides::both;  // so that a room may be a box
+  }
 
   TextureReader& textures() { return textures_; }
 

@@ -33,8 +33,8 @@ std::vector<Object> MeshFiles::read(const Item& block) {
   std::optional<Item> file;
   std::string fileName, name;
   // Black, which shapes without a material are, would only hide the mesh.
-  NotedMaterial material =
-      materials_.current == Material{} ? NotedMaterial(plainMaterial()) : materials_.current;
+  NotedMaterial material = materials_.current;
+  completeMaterial(material);
   bool generate = false;
   ObjectLinks links;
   MeshOperations operations;
@@ -60,7 +60,11 @@ std::vector<Object> MeshFiles::read(const Item& block) {
 
   const auto [placed, fresh] = placed_.try_emplace({found, materials_.index(material), generate, operations});
   if (fresh) {
-    const auto index = [&](const Material& m) { return materials_.index(m); };
+    const bool showsBoth = findings_.isOfKind() && !found->saysSides;
+    const auto index = [&](Material m) {
+      if (showsBoth && m != material) m.sides = ShadedSides::both;
+      return materials_.index(m);
+    };
     placed->second = trace::placed(*found, material, index);
     if (generate || !operations.none())
       change(placed->second, generate, operations, findings_.syntax().shortPlace(block.offset()));

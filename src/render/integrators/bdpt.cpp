@@ -46,7 +46,7 @@ bool Bidirectional::comesFromLights(const Path& path) const {
 /// The way that the sample's numbers choose: first how many places the path has, few more likely than many.
 Bidirectional::Ways Bidirectional::waysOf(const Sampler& sampler) const {
   if (!multiplexed_) return ways_;
-  const Vec2 u = sampler.branch(kWay).next2();
+  const Vec2 u = sampler.branch(Branch::strategy).next2();
   const int most = depth_ + mostScattered_ + 3;  // places, both ends among them; the fewest are 2
   const auto likely = [](int places) { return 1.0 / places; };
   Real all = 0;
@@ -59,7 +59,7 @@ Bidirectional::Ways Bidirectional::waysOf(const Sampler& sampler) const {
 }
 
 Bidirectional::Sample Bidirectional::sampleOf(const Sampler& sampler, std::vector<Thrown>* thrown) const {
-  Sampler spectrum = sampler.branch(kSpectrum);
+  Sampler spectrum = sampler.branch(Branch::spectrum);
   Sample sample{spectrum.next(), spectrum.next(), waysOf(sampler)};
   sample.thrown = thrown;
   return sample;
@@ -68,12 +68,12 @@ Bidirectional::Sample Bidirectional::sampleOf(const Sampler& sampler, std::vecto
 void Bidirectional::throwLight(Tracer& tracer, const Sampler& sampler, std::vector<Thrown>& thrown) const {
   Sample sample = sampleOf(sampler, &thrown);
   if (!lands_ || (sample.ways.camera >= 0 && sample.ways.camera != 1)) return;
-  walkFromLight(tracer, sampler.branch(kLightPath), sample);
+  walkFromLight(tracer, sampler.branch(Branch::lightPath), sample);
 }
 
 Color Bidirectional::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
   Sample sample = sampleOf(sampler, camera.thrown);
-  walkFromLight(tracer, sampler.branch(kLightPath), sample);
+  walkFromLight(tracer, sampler.branch(Branch::lightPath), sample);
   if (sample.ways.camera == 1) return Gather(tracer, 0).radiance();
   Path path;
   path.differentials = camera.differentials;
@@ -118,7 +118,7 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
   const bool onlyShines = path.counts.surfaces > depth_ || mostOften;  // is it sent for
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
-    Sampler numbers = sampler.branch(kMedium);
+    Sampler numbers = sampler.branch(Branch::medium);
     media = throughMedia(tracer, ray, end, inside, onlyShines ? 0 : 1, path.weight, numbers.branch(0));
     if (const auto where = placeByChance(*media, path.weight, numbers.next()))
       return scattered(tracer, ray, *media, *where, path, inside, sampler, sample, after);
@@ -182,7 +182,7 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
 
   // Where light went in that comes out here is the same place of the path.
   const auto throughBody = [&](std::uint32_t n, Real part) {
-    const Sampler own = sampler.branch(kBody).branch(n);
+    const Sampler own = sampler.branch(Branch::bdptBody).branch(n);
     const auto in = entrance(at, *body, path.weight, own.branch(0));
     if (!in) return;
     const Color factor = in->weight * part;
@@ -197,12 +197,12 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
   std::optional<Real> intoBody;
   if (body) intoBody = both ? 0 : maxComponent(body->albedo) * maxComponent(body->passes(at.cosine));
   const Onward onward(at, sample.spectrum, intoBody);
-  Sampler numbers = sampler.branch(kChoice);
+  Sampler numbers = sampler.branch(Branch::choice);
   const Real choice = numbers.next();
   if (const Real likely = onward.goesIntoBody(choice); likely > 0) throughBody(0, 1 / likely);
   if (sample.ways.camera == t || onward.goesIntoBody(choice) > 0) return throughMedium();
 
-  const auto next = onward.choose(choice, sampler.branch(kLobe));
+  const auto next = onward.choose(choice, sampler.branch(Branch::lobe));
   if (!next) {
     if (onward.totallyReflected(choice)) sum.stop(TotalInternalReflection{});
     return throughMedium();
@@ -236,8 +236,8 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
       onto.partial.reflect(place.cosine(to));
     const Ray leaving = bounces ? at.leaveToLight(to) : hit->leave(to);
     Interfaces there = next->there;
-    const auto found = tracer.cast(leaving, next->kind, there, tracer.chance(sampler.branch(kHole)));
-    const Color arriving = along(tracer, leaving, found, onto, there, sampler.branch(kNext), sample);
+    const auto found = tracer.cast(leaving, next->kind, there, tracer.chance(sampler.branch(Branch::hole)));
+    const Color arriving = along(tracer, leaving, found, onto, there, sampler.branch(Branch::next), sample);
     const Term::Kind term = bounces                             ? Term::Kind::bounce
                             : next->kind == RayKind::reflection ? Term::Kind::reflection
                                                                 : Term::Kind::refraction;
@@ -258,7 +258,7 @@ Color Bidirectional::scattered(Tracer& tracer, const Ray& ray, const MediumWay& 
                              .passed = inside.passed(where.t),
                              .ink = path.ink,
                              .inside = inside,
-                             .sampler = sampler.branch(kNext)});
+                             .sampler = sampler.branch(Branch::next)});
   Gather& sum = after->sum;
   const auto radiance = [&] {
     sum.draw(path.ink);
@@ -276,14 +276,15 @@ Color Bidirectional::scattered(Tracer& tracer, const Ray& ray, const MediumWay& 
   joinAll(sum, place, path, counts, where.weight, sampler, sample);
   if (sample.ways.camera == path.t()) return radiance();
 
-  Sampler numbers = sampler.branch(kChoice);
+  Sampler numbers = sampler.branch(Branch::choice);
   const Real most = maxComponent(path.weight * where.weight);
   const Real goes = path.counts.all() < kSurely ? 1 : std::min(1.0, most);
   if (!(most > 0) || !(numbers.next() < goes)) {
     sum.stop(Roulette{RayKind::bounce, goes});
     return radiance();
   }
-  const auto [direction, density] = samplePhase(ray.direction, where.forward, sampler.branch(kLobe).next2());
+  const auto [direction, density] =
+      samplePhase(ray.direction, where.forward, sampler.branch(Branch::lobe).next2());
   after->factor = where.weight / goes;
   after->density = density;
   Path& onto = after->path;
@@ -292,7 +293,8 @@ Color Bidirectional::scattered(Tracer& tracer, const Ray& ray, const MediumWay& 
   onto.fromLights = path.fromLights || comesFromLights(path);
   onto.partial.leave(density, density, 1);
   after->ray = {place.point(), direction};
-  after->hit = tracer.cast(after->ray, RayKind::bounce, after->inside, tracer.chance(sampler.branch(kHole)));
+  after->hit =
+      tracer.cast(after->ray, RayKind::bounce, after->inside, tracer.chance(sampler.branch(Branch::hole)));
   return {};
 }
 

@@ -46,8 +46,8 @@ void Bidirectional::askLights(Gather& sum, const PathPlace& at, const Path& path
     const Real counts = share(1, t, others, sample);
     if (!(counts > 0)) return;
     if (surface && surface->material.litThrough) ray.leaves = surface->hit.object;  // not in its own way
-    const Color passed =
-        at.visible(tracer, ray, arriving->distance, sampler.branch(kToLamp).branch(asked.branch).branch(n));
+    const Color passed = at.visible(tracer, ray, arriving->distance,
+                                    sampler.branch(Branch::bdptToLamp).branch(asked.branch).branch(n));
     const Real shadow = surface ? surface->material.shadow : 1;
     const Color counted = all * counts + extra * share(1, t, 0, sample);
     sum.addWay(Term::Kind::light, counted * shadow, passed, ConnectionTerm{1, t, counts});
@@ -71,7 +71,7 @@ void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path,
                              const Sampler& sampler, const Sample& sample) const {
   if (lamps_.empty()) return;
   Tracer& tracer = sum.tracer();
-  Sampler numbers = sampler.branch(kLamp);
+  Sampler numbers = sampler.branch(Branch::lamp);
   const Real which = numbers.next();
   const auto place = lamps_.choose(at.point(), which, numbers.next2());
   if (!place) return;
@@ -89,7 +89,7 @@ void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path,
   const Ray ray = at.leave(toLight);
   const Color seen = lamps_.look(tracer, ray, *place, at.side(toLight), tracer.chance(numbers));
   if (!tracer.world().media().empty() && !isBlack(seen))
-    light *= passedByBodies(tracer, ray, place->distance, sampler.branch(kToLamp));
+    light *= passedByBodies(tracer, ray, place->distance, sampler.branch(Branch::bdptToLamp));
   sum.addWay(Term::Kind::lamp, light * (counts / place->density), seen, ConnectionTerm{1, t, counts});
 }
 
@@ -124,7 +124,7 @@ void Bidirectional::join(Gather& sum, const PathPlace& at, const Path& path, con
     all *= Color(fog.passes(ray, distance));
   const Tracer::Joining joining(tracer);
   const Color passed = at.visible(tracer, ray, distance * Lamps::kBefore,
-                                  sampler.branch(kJoin).branch(static_cast<std::uint32_t>(s)));
+                                  sampler.branch(Branch::join).branch(static_cast<std::uint32_t>(s)));
   sum.addWay(Term::Kind::joined, all * allowedPart(tracer, path.weight * all * passed), passed,
              ConnectionTerm{s, t, counted});
 }

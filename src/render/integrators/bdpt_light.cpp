@@ -31,13 +31,14 @@ struct Bidirectional::Flight {
 Color Bidirectional::travels(Tracer& tracer, const Flight& f, std::optional<MediumWay::Place>& where) const {
   const Real far = f.hit ? f.hit->t : kInfinity;
   if (f.parallel) {  // sunlight loses nothing to fog
-    Color passes = f.inside.passed(far) * passedByBodies(tracer, f.ray, far, f.numbers.branch(kMedium));
+    Color passes =
+        f.inside.passed(far) * passedByBodies(tracer, f.ray, far, f.numbers.branch(Branch::medium));
     if (const Fog fog(tracer.settings()); f.fromSky && !fog.none() && isInOpenAir(f.inside, tracer.world()))
       passes *= Color(fog.passes({f.hit->surface.point, -f.ray.direction}, kInfinity));
     return passes;
   }
   if (!isThick(tracer)) return f.inside.passed(far);
-  Sampler numbers = f.numbers.branch(kMedium);
+  Sampler numbers = f.numbers.branch(Branch::medium);
   const int places = f.counts.scatterings < mostScattered_ ? 1 : 0;
   MediumWay way = throughMedia(tracer, f.ray, far, f.inside, places, f.power, numbers.branch(0));
   where = placeByChance(way, f.power, numbers.next());
@@ -90,20 +91,20 @@ void Bidirectional::walkFromLight(Tracer& tracer, const Sampler& sampler, Sample
     if (!(where ? scatters(f, *where) : goesOn(f, place, sample))) return;
     if ((!linked && !f.straight) || (ways.light == place.s() && !f.open)) return;
     f.parallel = f.parallel && f.open;
-    f.numbers = f.numbers.branch(kNext);
-    f.hit = tracer.cast(f.ray, RayKind::light, f.inside, tracer.chance(f.numbers.branch(kHole)));
+    f.numbers = f.numbers.branch(Branch::next);
+    f.hit = tracer.cast(f.ray, RayKind::light, f.inside, tracer.chance(f.numbers.branch(Branch::hole)));
   }
 }
 
 /// The flight is scattered by a medium; false if it ends.
 bool Bidirectional::scatters(Flight& f, const MediumWay::Place& where) const {
-  Sampler numbers = f.numbers.branch(kChoice);
+  Sampler numbers = f.numbers.branch(Branch::choice);
   const Real goes = f.counts.all() <= kSurely ? 1 : std::min(1.0, f.kept);
   if (!(numbers.next() < goes)) return false;
   f.power *= Color(1 / goes);
   f.straight = f.open = false;
   f.way = 0;
-  const PhaseSample to = samplePhase(f.ray.direction, where.forward, f.numbers.branch(kLobe).next2());
+  const PhaseSample to = samplePhase(f.ray.direction, where.forward, f.numbers.branch(Branch::lobe).next2());
   f.partial.leave(to.density, to.density, 1);
   f.ray = {f.ray.at(where.t), to.direction};
   return true;
@@ -115,8 +116,8 @@ bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sam
   const bool passes = place.lit && f.open && at.tracer.lightPasses(at.bsdf());
   if (f.counts.surfaces > depth_ && !passes && !isThick(at.tracer)) return false;
   const Onward onward(at, sample.spectrum);
-  Sampler choice = f.numbers.branch(kChoice);
-  const auto next = onward.choose(choice.next(), f.numbers.branch(kLobe), true, place.lit);
+  Sampler choice = f.numbers.branch(Branch::choice);
+  const auto next = onward.choose(choice.next(), f.numbers.branch(Branch::lobe), true, place.lit);
   if (!next) return false;
   const Color& weight = next->weight;
   const Real keeps = maxComponent(f.power * weight) / maxComponent(f.power);
@@ -153,7 +154,7 @@ void Bidirectional::land(Tracer& tracer, const LightPlace& light, const Sample& 
   const int s = light.s();
   if (!lands_ || !(sample.thrown || tracer.records()) || !sample.ways.shows(s, 1) || !place.joins()) return;
   if (!allows(light.counts, light.last)) return;
-  const Vec2 lens = camera_.hasLens() ? sampler.branch(kLens).next2() : kCenter;
+  const Vec2 lens = camera_.hasLens() ? sampler.branch(Branch::lightLens).next2() : kCenter;
   const auto seen = camera_.sees(place.point(), lens);
   if (!seen || !tracer.world().camera().sees(seen->distance)) return;
   const Vec3 toEye = -seen->ray.direction, from = place.from();
@@ -167,7 +168,7 @@ void Bidirectional::land(Tracer& tracer, const LightPlace& light, const Sample& 
   const Ray ray = place.leave(toEye);
   const Interfaces there = place.side(toEye);
   const Tracer::Joining joining(tracer);
-  const Color passed = place.visible(tracer, ray, seen->distance, sampler.branch(kLand)) *
+  const Color passed = place.visible(tracer, ray, seen->distance, sampler.branch(Branch::land)) *
                        (there.nested() ? Color(1) : there.passed(seen->distance));
   if (!sample.thrown || isBlack(passed)) return;
   const Fog fog(tracer.settings());

@@ -1,6 +1,8 @@
 // The cost of a pixel in Whitted's tracer, as a colour: boxes of hierarchies that its rays visited and shapes
 // that they were tested against. Black is none, ever brighter up to white for ten thousand (heatColor); each
 // step of one colour is a factor.
+//
+// Use it to find what makes a scene slow. Not for the cost of the other integrators, whose rays go elsewhere.
 #pragma once
 
 #include <cmath>

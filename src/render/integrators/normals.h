@@ -1,5 +1,7 @@
 // The normals of what the camera sees, as colours: -1 to 1 along x, y and z become 0 to 1 of red, green and
 // blue. The smallest integrator.
+//
+// Use it to check a mesh and its normals. Not as data for other programs: the pass normal has the numbers.
 #pragma once
 
 #include "render/gather.h"

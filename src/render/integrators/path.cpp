@@ -19,14 +19,6 @@ namespace trace {
 
 namespace {
 
-/// Branches of a place's numbers: its lights by their number, and these.
-constexpr std::uint32_t kLamp = 0x80000000u, kChoice = 0x80000001u, kLobe = 0x80000002u, kNext = 0x80000003u,
-                        kMedium = 0x80000004u, kHole = 0x80000005u, kBody = 0x80000006u,
-                        kToLamp = 0x80000007u, kRoulette = 0x80000008u, kDisk = 0x80000009u,
-                        kCaustic = 0x8000000au;
-/// The numbers by which a path came to a place: the second pair chooses the place's lamp, so that what
-/// depends on both is spread evenly, too. Where the camera ray arrives, they are its place in the picture.
-constexpr std::uint32_t kArrival = Sampler::kFilm;
 /// How often a path continues that was scattered that many times and carries so much of what it brings to the
 /// sample. Short ones and those that carry half of it surely: to end them spares less time than the noise
 /// costs.
@@ -120,7 +112,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   const bool onlyShines = path.depth > depth_ || path.scattered >= mostScattered_;  // is it sent for
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
-    Sampler numbers = sampler.branch(kMedium);
+    Sampler numbers = sampler.branch(Branch::medium);
     media = throughMedia(tracer, ray, end, inside, onlyShines || path.told ? 0 : 1, path.weight,
                          numbers.branch(0));
     if (const auto place = placeByChance(*media, path.weight, numbers.next()))
@@ -149,7 +141,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
   // Numbers are drawn where something is to be chosen.
   const bool splits = tracer.settings().wavelengths > 1;
-  Vec2 choice = splits ? sampler.branch(kChoice).next2() : Vec2{};
+  Vec2 choice = splits ? sampler.branch(Branch::choice).next2() : Vec2{};
   // One number chooses where all wavelengths lie, and which of them: the two must not depend on each other.
   const Real wavelength = choice.y * tracer.settings().wavelengths;
   Interaction at(tracer, ray, *hit, footprint.get(), inside, wavelength - std::floor(wavelength));
@@ -181,14 +173,14 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   if (gathers && scatters(at.bsdf())) {
     const PhotonMap::Near near = at.photonsOf(path.maps->all);
     gathers = (path.kind != RayKind::bounce || !(hit->t * hit->t < near.radius2)) &&
-              at.hasDisk(std::sqrt(near.radius2), sampler.branch(kDisk));
+              at.hasDisk(std::sqrt(near.radius2), sampler.branch(Branch::photonDisk));
     if (gathers) at.addPhotons(sum, Term::Kind::photons, near, true);
   }
   const bool glossy = isGlossy(at.bsdf()), told = path.told && !(path.near && at.sendsEvenly());
   const bool asks = !gathers && !told;
   if (asks) {
     if (!world.lights().empty()) at.addLights(sum, sampler);
-    at.addCaustics(sum, path.maps->caustics, sampler.branch(kCaustic));
+    at.addCaustics(sum, path.maps->caustics, sampler.branch(Branch::caustics));
   }
   // The photon map gives the scattered light. Not where a part of the disk on which they lie is beyond an
   // edge, or below what stands there: from there the path continues. So it does to surfaces that are near
@@ -199,7 +191,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   if (tells) {
     const PhotonMap::Near near = at.photonsOf(path.maps->all);
     const Real radius = std::sqrt(near.radius2);
-    tells = at.hasDisk(radius, sampler.branch(kDisk));
+    tells = at.hasDisk(radius, sampler.branch(Branch::photonDisk));
     apart = kApart * radius;
     if (tells) at.addPhotons(sum, Term::Kind::photons, near, true, 1, apart);
   }
@@ -223,7 +215,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   const Real all = intoLobe + mirrors + passes + (both ? 0 : inBody);
   const Real toLobe = all > 0 ? intoLobe / all : 0, toMirror = all > 0 ? mirrors / all : 0;
   const Real toBody = all > 0 ? inBody / all : 0;
-  if (!splits && toLobe < 1) choice.x = sampler.branch(kChoice).next();
+  if (!splits && toLobe < 1) choice.x = sampler.branch(Branch::choice).next();
   if (toLobe > 0 || cached) addLamp(sum, at, toLobe, sampler);
 
   /// Whether a ray of that weight continues, and for how many it then stands.
@@ -233,7 +225,7 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
       sum.stop(DepthLimit{kind, depth_});
     else if (!(goes > 0) || ((kind == RayKind::bounce ? told : path.told) && photonsBring))
       sum.stop(BelowThreshold{kind, 0, 0});
-    else if (goes < 1 && sampler.branch(kRoulette).next() >= goes)
+    else if (goes < 1 && sampler.branch(Branch::roulette).next() >= goes)
       sum.stop(Roulette{kind, goes});
     else
       return 1 / goes;
@@ -257,16 +249,17 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
                  (kind == RayKind::refraction && path.asked && tracer.lightPasses(at.bsdf()));
     next.bounced = path.bounced || kind == RayKind::bounce;
     const Ray onward = kind == RayKind::bounce ? at.leaveToLight(direction) : hit->leave(direction);
-    const std::optional<Hit> met = tracer.cast(onward, kind, there, tracer.chance(sampler.branch(kHole)));
+    const std::optional<Hit> met =
+        tracer.cast(onward, kind, there, tracer.chance(sampler.branch(Branch::hole)));
     next.told = (kind == RayKind::bounce ? told : path.told) || (tells && kind == RayKind::bounce);
     next.near = tells && kind == RayKind::bounce && met && met->t < apart;
-    const Color arriving = along(tracer, onward, met, next, there, sampler.branch(kNext));
+    const Color arriving = along(tracer, onward, met, next, there, sampler.branch(Branch::next));
     const Real part = kind == RayKind::bounce ? allowedPart(tracer, path.weight * factor * arriving) : 1;
     sum.add(term, factor * part, arriving, {density, 0, 1});
   };
 
   const auto throughBody = [&](std::uint32_t n, Real part) {
-    const Sampler own = sampler.branch(kBody).branch(n);
+    const Sampler own = sampler.branch(Branch::pathBody).branch(n);
     const auto in = entrance(at, *body, path.weight, own.branch(0));
     if (!in) return;
     const Color factor = in->weight * part;
@@ -278,8 +271,8 @@ Color PathTracer::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hi
   const int places = both ? tracer.settings().subsurfaceSamples : 0;
   for (int n = 0; n < places; ++n) throughBody(static_cast<std::uint32_t>(n), 1.0 / places);
   if (all > 0 && choice.x < toLobe) {
-    const Vec2 where = sampler.branch(kNext).branch(kArrival).next2();
-    const Real choose = hasOneLobe(at.bsdf()) ? 0 : sampler.branch(kLobe).next();
+    const Vec2 where = sampler.branch(Branch::next).branch(Branch::arrival).next2();
+    const Real choose = hasOneLobe(at.bsdf()) ? 0 : sampler.branch(Branch::lobe).next();
     const auto drawn = sample(at.bsdf(), at.frame, -ray.direction, choose, where, Transport::importance);
     const bool inward = drawn && dot(drawn->toLight, at.normal) < 0;
     const bool astray = drawn && !inward && at.isAstray(drawn->toLight);
@@ -313,17 +306,17 @@ Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way
                              .how = {MediumTerm::What::follows, place.object, place.t, place.forward},
                              .passed = inside.passed(place.t),
                              .inside = inside,
-                             .sampler = sampler.branch(kNext)});
+                             .sampler = sampler.branch(Branch::next)});
   Gather& sum = after->sum;
   const MediumTerm term{MediumTerm::What::scatters, place.object, place.t, place.forward};
   if (!isBlack(way.glows)) sum.add(Color(1), way.glows, MediumTerm{MediumTerm::What::glows});
   const ScatterPlace at{ray, ray.at(place.t), place.weight, place.forward, inside, term};
-  const Sampler numbers = sampler.branch(kMedium).branch(1);
+  const Sampler numbers = sampler.branch(Branch::medium).branch(1);
   addLightsAt(sum, tracer, at, numbers);
   addLampAt(sum, tracer, at, lamps_, true, numbers);
-  addPhotonsAt(sum, at, path.maps->media, sampler.branch(kDisk));
+  addPhotonsAt(sum, at, path.maps->media, sampler.branch(Branch::photonDisk));
 
-  Sampler lobe = sampler.branch(kLobe);
+  Sampler lobe = sampler.branch(Branch::lobe);
   const Real goes = survival(path.depth + path.scattered, path.weight * place.weight);
   if (!(lobe.next() < goes)) {
     sum.stop(Roulette{RayKind::bounce, goes});
@@ -338,7 +331,8 @@ Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way
           path.gathers,    path.maps,  path.scattered + 1};
   next.asked = true;
   after->ray = {at.point, direction};
-  after->hit = tracer.cast(after->ray, RayKind::bounce, after->inside, tracer.chance(sampler.branch(kHole)));
+  after->hit =
+      tracer.cast(after->ray, RayKind::bounce, after->inside, tracer.chance(sampler.branch(Branch::hole)));
   return {};
 }
 
@@ -346,8 +340,9 @@ Color PathTracer::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way
 /// followed.
 void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& sampler) const {
   if (lamps_.empty()) return;
-  Sampler numbers = sampler.branch(kLamp);
-  const Vec2 where = sampler.branch(kArrival).second2();
+  Sampler numbers = sampler.branch(Branch::lamp);
+  // The second pair of the numbers that led here: what depends on both is spread evenly, too.
+  const Vec2 where = sampler.branch(Branch::arrival).second2();
   const Real which = lamps_.isOne() ? 0 : numbers.next();
   const auto place = lamps_.choose(at.lightPlace(), which, where);
   if (!place) return;
@@ -364,7 +359,7 @@ void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, c
                                             : lamps_.look(at.tracer, toLamp, *place, at.inside, hole);
   Color factor = scattered * (chance.share / place->density);
   if (!at.tracer.world().media().empty() && !isBlack(seen))
-    factor *= passedByBodies(at.tracer, toLamp, place->distance, sampler.branch(kToLamp));
+    factor *= passedByBodies(at.tracer, toLamp, place->distance, sampler.branch(Branch::pathToLamp));
   sum.add(Term::Kind::lamp, factor, seen, chance);
 }
 

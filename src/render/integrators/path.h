@@ -14,6 +14,12 @@
 // With final gathering (Jensen 2001, section 7.4) a path ends one ray later: photons of all light tell what
 // that ray would find. With an irradiance cache such a ray is only sent where no place nearby, of those
 // worked out beforehand, tells what it would bring.
+//
+// Use path first: for lights in the open, and a sky that is the light. Not for lights behind glass or walls,
+// or that shine at the ceiling: its rays rarely hit them, and a light without a size never.
+// Use direct to see what indirect light adds, or as a fast preview. Not where light has to bounce.
+// Use photon for light that is rare or small, and for caustics of the sun or of point lights seen through
+// glass or in a mirror, which path and bdpt never find. Not where nothing may be blurred.
 #pragma once
 
 #include <memory>

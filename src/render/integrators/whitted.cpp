@@ -29,16 +29,6 @@ struct Whitted::Path {
 
 namespace {
 
-/// Branches of a place's numbers: its lights by their number, and the rays that continue; of a fan the
-/// refracted rays have the numbers from kRefracted on.
-constexpr std::uint32_t kMirrored = 0x80000000u, kRefracted = 0x80000001u;
-/// The numbers by which a direction into a lobe is chosen, those of the fog, and those of the lamps.
-constexpr std::uint32_t kLobe = 0x7fffffffu, kFog = 0x7ffffffdu, kLamps = 0x7ffffffau;
-/// Factors of the ray that continues straight through a partly open surface.
-constexpr std::uint32_t kStraight = 0x7ffffffbu;
-/// Factors of translucent objects, and of media on the way to a lamp.
-constexpr std::uint32_t kBody = 0x7ffffff9u, kToLamp = 0x7ffffff8u;
-
 /// Where sample k of a pixel has its wavelengths between those of sample 0: together they lie evenly (van der
 /// Corput 1935).
 Real spreadOf(int k) {
@@ -63,8 +53,8 @@ void Whitted::prepare(const World& world, const Settings& settings, Job& job) {
   const bool bodies = !world.media().empty();
   if (!bodies && !(tracer.settings().fog > 0)) return;
   const Lamps* lamps = lamps_.empty() ? nullptr : &lamps_;
-  bodies ? addMedia(sum, tracer, ray, t, inside, world.ambient(), lamps, sampler.branch(kFog))
-         : addFog(sum, tracer, ray, t, inside, world.ambient(), lamps, sampler.branch(kFog));
+  bodies ? addMedia(sum, tracer, ray, t, inside, world.ambient(), lamps, sampler.branch(Branch::whittedFog))
+         : addFog(sum, tracer, ray, t, inside, world.ambient(), lamps, sampler.branch(Branch::whittedFog));
 }
 
 /// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
@@ -121,7 +111,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
   };
   sum.note(at.indices);
   if (glossy) {  // one ray into the lobe, in place of those that stand for its core
-    Sampler numbers = sampler.branch(kLobe);
+    Sampler numbers = sampler.branch(Branch::whittedLobe);
     const Real choose = numbers.next();
     const auto drawn =
         sample(at.bsdf(), at.frame, -ray.direction, choose, numbers.next2(), Transport::importance);
@@ -134,7 +124,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
       if (worthwhile(next)) {
         sum.add(through ? Term::Kind::refraction : Term::Kind::reflection, lobe * (1 - at.coat),
                 follow(tracer, hit->leave(drawn->toLight), next, through ? at.behind() : inside,
-                       sampler.branch(kMirrored + through)));
+                       sampler.branch(Branch::mirrored, through)));
       }
     }
   }
@@ -145,15 +135,15 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
       next.differentials = widened.get();
       sum.add(Term::Kind::reflection, mirror,
               follow(tracer, hit->leave(mirrored(ray.direction, at.normal)), next, inside,
-                     sampler.branch(kMirrored)));
+                     sampler.branch(Branch::mirrored)));
     }
   }
-  std::uint32_t branch = kRefracted;
+  std::uint32_t fan = 0;
   bool total = false;
   for (const SpectralShare& share : glossy ? at.shares().first(0) : at.shares()) {
     const Color filter = share.weight * at.filter(share);
     Path next = onward(RayKind::refraction, filter);
-    const std::uint32_t number = branch++;
+    const std::uint32_t number = fan++;
     if (!worthwhile(next)) continue;
     if (const auto direction = at.through(share)) {
       Interfaces behind = at.behind();
@@ -162,7 +152,8 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
           refractedAt(world, *hit, footprint.get(), ray.direction, *direction, at.normal, at.ratio(share));
       next.differentials = widened.get();
       sum.add(Term::Kind::refraction, filter,
-              follow(tracer, hit->leave(*direction), next, std::move(behind), sampler.branch(number)));
+              follow(tracer, hit->leave(*direction), next, std::move(behind),
+                     sampler.branch(Branch::refracted, number)));
     } else if (!std::exchange(total, true)) {
       sum.stop(TotalInternalReflection{});
     }
@@ -174,8 +165,9 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
       const Footprint widened =
           refractedAt(world, *hit, footprint.get(), ray.direction, ray.direction, at.normal, 1);
       next.differentials = widened.get();
-      sum.add(Term::Kind::hole, Color(hole),
-              follow(tracer, hit->leave(ray.direction), next, inside, sampler.branch(kStraight)));
+      sum.add(
+          Term::Kind::hole, Color(hole),
+          follow(tracer, hit->leave(ray.direction), next, inside, sampler.branch(Branch::whittedStraight)));
     }
   }
   seeMedia(sum, tracer, ray, hit->t, inside, sampler);
@@ -196,7 +188,7 @@ Color Whitted::follow(Tracer& tracer, const Ray& ray, const Path& path, Interfac
 void Whitted::addBody(Gather& sum, const Interaction& at, const SubsurfaceBsdf& body, const Path& path,
                       const Sampler& sampler) const {
   const int places = at.tracer.settings().subsurfaceSamples;
-  const Sampler numbers = sampler.branch(kBody);
+  const Sampler numbers = sampler.branch(Branch::whittedBody);
   for (int n = 0; n < places; ++n) {
     const Sampler own = numbers.branch(static_cast<std::uint32_t>(n));
     const auto in = entrance(at, body, path.weight, own.branch(0));
@@ -233,7 +225,7 @@ void Whitted::addCaustics(Gather& sum, const Interaction& at) const {
 void Whitted::addLamps(Gather& sum, const Interaction& at, bool glossy, const Sampler& sampler) const {
   Tracer& tracer = at.tracer;
   const int rays = tracer.settings().lampSamples;
-  Sampler numbers = sampler.branch(kLamps);
+  Sampler numbers = sampler.branch(Branch::whittedLamps);
   const Vec2 first = numbers.next2();
   const Real which = numbers.next();
   for (int n = 0; n < rays; ++n) {
@@ -252,7 +244,7 @@ void Whitted::addLamps(Gather& sum, const Interaction& at, bool glossy, const Sa
     Color passed = tracer.visible(at.hit, toLamp, place->distance * Lamps::kBefore, at.inside);
     if (!tracer.world().media().empty())
       passed = throughBodies(tracer, passed, toLamp, place->distance,
-                             sampler.branch(kToLamp).branch(static_cast<std::uint32_t>(n)));
+                             sampler.branch(Branch::whittedToLamp).branch(static_cast<std::uint32_t>(n)));
     sum.add(Term::Kind::lamp, scattered, passed, {place->density, 0, 1});
   }
 }

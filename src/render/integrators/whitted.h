@@ -7,6 +7,10 @@
 // place of the refracted ray under total internal reflection. kr and kt are constants, unless a Fresnel term
 // is asked for. Extras: rough surfaces send a ray at random, photons show caustics, ambient light is asked
 // for, emissive objects light others, and fog covers what is far.
+//
+// Use it for the pictures of the courses, and wherever one sample a pixel must do: sharp shadows, mirrors and
+// glass without noise. Not for indirect light, which is a constant here, nor for lamps and skies that light a
+// scene (lamp-samples asks them), nor for caustics without photons.
 #pragma once
 
 #include "render/gather.h"
