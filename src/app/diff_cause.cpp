@@ -355,23 +355,41 @@ struct ChangeCandidate {
   bool isWorthACause() const { return left > kWorthwhile * contrast; }
 };
 
+/// The blocks of both pictures under a curve.
+struct CurvedBlocks {
+  CurvedBlocks(const PictureChange& change, const LoadedPicture& reference, const LoadedPicture& test)
+      : curve(change) {
+    const CurvedPair pair(reference, test, change);
+    from = blocksOf(pair.reference);
+    to = blocksOf(pair.test);
+    const bool ofScreen = CurvedPair::ofScreen(reference, test);
+    contrast = std::min(contrastOf(from, ofScreen), contrastOf(to, ofScreen));
+  }
+
+  ChangeCandidate with(const PictureChange::Turn& turn, const PictureChange::Channels& channels) const {
+    ChangeCandidate candidate{curve, leftBetween(from, to, turn, channels), contrast};
+    candidate.change.turn = turn;
+    candidate.change.channels = channels;
+    return candidate;
+  }
+
+  PictureChange curve;
+  BlockMeans from, to;
+  double contrast = 0;
+};
+
 /// The best change without a shift for each number of parts from 0 to 3.
 std::array<ChangeCandidate, 4> bestOfEachCount(const LoadedPicture& reference, const LoadedPicture& test) {
   std::array<ChangeCandidate, 4> best;
   for (const PictureChange& curve : curvesBetween(reference, test)) {
-    const CurvedPair pair(reference, test, curve);
-    const BlockMeans from = blocksOf(pair.reference), to = blocksOf(pair.test);
-    const bool ofScreen = CurvedPair::ofScreen(reference, test);
-    const double contrast = std::min(contrastOf(from, ofScreen), contrastOf(to, ofScreen));
+    const CurvedBlocks blocks(curve, reference, test);
     for (const PictureChange::Turn& turn : kTurns) {
       if (!fits(turn, reference.picture, test.picture)) continue;
       for (const PictureChange::Channels& channels : kChannelOrders) {
-        ChangeCandidate candidate{curve, leftBetween(from, to, turn, channels), contrast};
-        candidate.change.turn = turn;
-        candidate.change.channels = channels;
+        const ChangeCandidate candidate = blocks.with(turn, channels);
         ChangeCandidate& found = best[static_cast<std::size_t>(candidate.change.parts())];
         // The first of equals is kept, though their sums were rounded differently.
-        if (candidate.left < found.left - 1e-9 * contrast) found = candidate;
+        if (candidate.left < found.left - 1e-9 * blocks.contrast) found = candidate;
       }
     }
   }
@@ -415,6 +433,22 @@ ChangeCandidate shifted(const ChangeCandidate& candidate, const LoadedPicture& r
   return best;
 }
 
+/// The shifted candidate with the curve that leaves least. Without the shift, curves that are nearly alike
+/// cannot be told apart.
+ChangeCandidate withBestCurve(const ChangeCandidate& shiftedOne, const LoadedPicture& reference,
+                              const LoadedPicture& test) {
+  ChangeCandidate best = shiftedOne;
+  for (const PictureChange& curve : curvesBetween(reference, test)) {
+    if (curve.curve == Curve::none) continue;
+    const PictureChange& change = shiftedOne.change;
+    const ChangeCandidate other =
+        shifted(CurvedBlocks(curve, reference, test).with(change.turn, change.channels), reference, test);
+    const bool sameShift = other.change.right == change.right && other.change.down == change.down;
+    if (sameShift && other.left < best.left) best = other;
+  }
+  return best;
+}
+
 }  // namespace
 
 std::optional<DifferenceCause> causeOfDifference(const LoadedPicture& reference, const LoadedPicture& test) {
@@ -431,6 +465,8 @@ std::optional<DifferenceCause> causeOfDifference(const LoadedPicture& reference,
   for (const ChangeCandidate& candidate : best)
     if (chosen.isWorthACause() && candidate.left <= kDecisive * chosen.left) chosen = candidate;
   if (std::isfinite(chosen.left) && chosen.isWorthACause()) chosen = shifted(chosen, reference, test);
+  const bool isShifted = chosen.change.right != 0 || chosen.change.down != 0;
+  if (isShifted && chosen.change.curve != Curve::none) chosen = withBestCurve(chosen, reference, test);
   if (chosen.change.parts() == 0 || !chosen.explains()) return std::nullopt;
 
   const double left = leftBetween(CurvedPair(reference, test, chosen.change), chosen.change);

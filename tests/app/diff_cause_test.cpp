@@ -196,6 +196,14 @@ TEST(DifferenceCause, SeveralPartsAreNamedTogether) {
   EXPECT_EQ(cause->change.down, -1);
 }
 
+TEST(DifferenceCause, CurvesAreToldApartInShiftedPicturesToo) {
+  const Picture p = scenePicture(96, 72), moved = scenePicture(96, 72, 1, 0);
+  EXPECT_EQ(causeBetween(levelsOf(p), levelsOf(mapped(moved, srgbOfLinear))),
+            "encoded as sRGB and moved one pixel to the right");
+  EXPECT_EQ(causeBetween(levelsOf(p), levelsOf(mapped(moved, [](double v) { return std::pow(v, 1 / 2.2); }))),
+            "with a gamma of 2.2 applied and moved one pixel to the right");
+}
+
 TEST(DifferenceCause, ADifferenceThatIsLeftIsMeasured) {
   const Picture p = scenePicture(64, 64);
   Picture wrong = turned(p, false, [&](int x, int y) { return p.at(x, 63 - y); });

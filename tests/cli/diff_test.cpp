@@ -125,6 +125,40 @@ TEST_F(DiffCause, OfPixelsSampledAtTheirCornersIsAShiftOfHalfAPixel) {
   EXPECT_TRUE(contains(cause["text"].get<std::string>(), "center.png is corner.png moved"));
 }
 
+TEST_F(DiffCause, IsNamedForWrongRenderersAndNotForOthers) {
+  render("right.png");
+  struct {
+    std::vector<std::string> options;
+    std::string cause;  // "" for none: the whole picture was not changed in one way
+  } const cases[] = {
+      {{"--pixel-position", "center"}, "moved half a pixel to the left and half a pixel down; apart"},
+      {{"--pixel-position", "border"}, "moved half a pixel to the left and half a pixel down; apart"},
+      {{"--transfer", "srgb"}, "encoded as sRGB; nothing else"},
+      {{"--transfer", "srgb", "--pixel-position", "center"},
+       "encoded as sRGB and moved half a pixel to the left and half a pixel down; apart"},
+      {{"--exposure", "1"}, "with its values times 2; nothing else"},
+      {{"--exposure", "-1"}, "with its values times 0.5; nothing else"},
+      {{"--rounding", "nearest"}, ""},
+      {{"--ambient-scale", "0"}, ""},
+      {{"--highlight", "phong"}, ""},
+      {{"--shininess-scale", "4"}, ""},
+      {{"--depth", "0"}, ""},
+      {{"--tone", "filmic"}, ""},
+      {{"--tone", "agx"}, ""},
+      {{"--white-balance", "3200"}, ""},
+  };
+  for (const auto& [options, cause] : cases) {
+    SCOPED_TRACE(options[0] + " " + options[1]);
+    render("wrong.png", options);
+    const std::string out = run({"diff", "right.png", "wrong.png"}).out;
+    if (cause.empty()) {
+      EXPECT_FALSE(contains(out, "cause")) << out;
+    } else {
+      EXPECT_TRUE(contains(out, "cause   wrong.png is right.png " + cause)) << out;
+    }
+  }
+}
+
 TEST_F(DiffCause, IsNamedInTextAndJsonAndByGrade) {
   render("right.png");
   Picture right = readPicture(path("right.png")), wrong = right;
