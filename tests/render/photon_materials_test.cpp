@@ -165,7 +165,7 @@ TEST(PhotonMaterials, LightThroughGlassFilledWithAMediumCountsOnce) {
         if (!clear) material.mediumDensity = 1, material.mediumScatters = {0.9, 0.7, 0.5};
         comparison.compare("roughness " + std::to_string(roughness) + (clear ? " clear" : " turbid") +
                                (light == Light::lamp ? " a lamp" : " a light"),
-                           sceneOf(material, light, true), settingsOf(IntegratorKind::bdpt, 64));
+                           sceneOf(material, light, true), settingsOf(IntegratorKind::bdpt, 32));
       }
   EXPECT_EQ(comparison.size(), 8u);
 }
