@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "traceray/traceray.h"
 
@@ -411,6 +412,11 @@ PYBIND11_MODULE(_core, module) {
       .def(py::init<const tr::Scene&>(), py::arg("scene"), "A copy.")
       .def("copy", [](const tr::Scene& scene) { return tr::Scene(scene); })
       .def("__copy__", [](const tr::Scene& scene) { return tr::Scene(scene); })
+      .def("__repr__",
+           [](tr::Scene& scene) {
+             return "<Scene: " + std::to_string(scene.objects().size()) + " objects, " +
+                    std::to_string(scene.lights().size()) + " lights>";
+           })
       .def("__deepcopy__", [](const tr::Scene& scene, const py::dict&) { return tr::Scene(scene); })
       .def_static(
           "open",
@@ -510,6 +516,24 @@ PYBIND11_MODULE(_core, module) {
                                return metrics;
                              })
       .def("__getitem__", &tr::Difference::metric)
+      .def("keys",
+           [](const tr::Difference& difference) {
+             py::list names;
+             for (const auto& metric : difference.metrics) names.append(metric.first);
+             return names;
+           })
+      .def("__repr__",
+           [](const tr::Difference& difference) {
+             if (!difference.sameSize) return std::string("<Difference: the sizes differ>");
+             if (difference.identical) return std::string("<Difference: identical>");
+             std::string text = "<Difference in " + difference.unit + ":";
+             for (const auto& [name, value] : difference.metrics) {
+               std::ostringstream number;
+               number << value;
+               text += " " + name + " " + number.str();
+             }
+             return text + ">";
+           })
       .def_property_readonly("worst",
                              [](const tr::Difference& difference) {
                                return py::make_tuple(difference.worstX, difference.worstY);

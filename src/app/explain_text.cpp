@@ -400,10 +400,10 @@ bool PixelFacts::agrees() const {
 
 std::string explainText(const PixelFacts& facts, bool color) {
   const Explanation& e = facts.explanation;
-  std::string text = printable(facts.scene.file) + ", pixel " + std::to_string(e.tree.x) + "," +
-                     std::to_string(e.tree.y) + " of " + std::to_string(facts.width) + " x " +
-                     std::to_string(facts.height) + ", sample " + std::to_string(e.tree.sample) + " of " +
-                     std::to_string(e.samples.size());
+  std::string text = (facts.scene.file.empty() ? "" : printable(facts.scene.file) + ", ") + "pixel " +
+                     std::to_string(e.tree.x) + "," + std::to_string(e.tree.y) + " of " +
+                     std::to_string(facts.width) + " x " + std::to_string(facts.height) + ", sample " +
+                     std::to_string(e.tree.sample) + " of " + std::to_string(e.samples.size());
   if (e.tree.moment >= 0)
     text += ", at " + toText(timeOfMoment(facts.settings, e.tree.moment)) + " s, moment " +
             std::to_string(e.tree.moment) + " of " + std::to_string(facts.settings.moments);

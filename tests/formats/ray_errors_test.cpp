@@ -167,6 +167,18 @@ TEST(RayErrors, OfTheHeader) {
   EXPECT_EQ(errorsOfFile("SBT-raytracer1.0"), "1:1: expected SBT-raytracer 1.0 or Trace 1");
 }
 
+TEST(RayErrors, OfTheKindTrace1SpeakOfItsForms) {
+  const auto of = [](const std::string& text) { return errorsOfFile("Trace 1\n" + text); };
+  EXPECT_NE(of("rotate 45 { sphere { } }").find("rotate y 45 { ... }"), std::string::npos);
+  EXPECT_NE(of("translate(0, 1) { sphere { } }").find("the object or a number is missing"),
+            std::string::npos);
+  EXPECT_NE(of("sphere { material = peel }").find("let foo = material { ... }"), std::string::npos);
+  EXPECT_NE(of("sphere { material = { colour = (1, 0, 0) } }").find("diffuse = (red, green, blue)"),
+            std::string::npos);
+  EXPECT_NE(of("sphere { material = { diffuse = 0.8, 0.2, 0.1 } }").find("stand in parentheses"),
+            std::string::npos);
+}
+
 TEST(RayErrors, AreReportedTogether) {
   EXPECT_EQ(errorsOf("cone { height = a; }\nsphere { material = b; }\nfoo"),
             "2:17: height: expected a number, found \"a\"\n"

@@ -199,6 +199,7 @@ def test_diff_takes_arrays_renders_and_files(tmp_path):
     other = render.image.copy()
     other[3, 5] = 1
     difference = tr.diff(render, other)
+    assert "rmse" in repr(difference) and dict(difference)["max"] == 1
     assert difference["max"] == 1 and difference.worst == (5, 3) and difference.unit == "values"
     assert difference.heat.shape == other.shape
     assert render.write(tmp_path / "a.png") == str(tmp_path / "a.png")

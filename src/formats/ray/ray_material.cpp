@@ -97,7 +97,9 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
     const std::vector<std::string_view> library = libraryNames();
     if (std::find(library.begin(), library.end(), value.text()) != library.end())
       hint = "{ library = " + std::string(value.text()) + " } takes it from the library";
-    if (hint.empty()) hint = "a material is named before its first use: material = { name = foo; ... }";
+    if (hint.empty())
+      hint = std::string("a material is named before its first use: ") +
+             (findings_.isOfKind() ? "let foo = material { ... }" : "material = { name = foo; ... }");
     findings_.error(value, "expected the name of a material, found " + describe(value), std::move(hint));
     return inherited;
   }
@@ -165,7 +167,10 @@ void Materials::chooseModel(Block& block, const Item& value) {
 }
 
 void Materials::field(Block& block, const Item& field) {
-  if (!field.keyed()) return findings_.expected(field, "material", "a field, as in diffuse = (1, 1, 1)");
+  if (!field.keyed())
+    return findings_.expected(
+        field, "material", "a field, as in diffuse = (1, 1, 1)",
+        field.is(Kind::number) ? "the three numbers of a colour stand in parentheses" : "");
   const std::string_view key = field.key();
   if (key == kModel) return;  // chosen before
   if (key == "name") {
@@ -236,6 +241,9 @@ void Materials::unknownField(const Block& block, const Item& field) {
   for (const ModelType& type : modelTypes())
     for (const ModelField& f : MaterialModel(type).fields())
       if (f.keyword == key) having.push_back(type.keyword);
+  if (having.empty() && key == "colour" && findings_.isOfKind())
+    return findings_.error(field, "material has no field \"colour\"",
+                           "diffuse = (red, green, blue) is its colour");
   if (having.empty())
     return findings_.unknownField(
         Material::kKeyword, field,

@@ -87,7 +87,9 @@ void ObjectReader::noObject(const Item& item) {
   if (item.is(Kind::word)) {
     const std::string near = nearest(item.text(), knownWords());
     if (near == item.text())
-      hint = "\"" + near + "\" is followed by { or (";
+      hint = near == "rotate" && findings_.isOfKind()
+                 ? "rotate takes an axis and degrees: rotate y 45 { ... }"
+                 : "\"" + near + "\" is followed by { or (";
     else
       hint = didYouMean(item.text(), knownWords());
   }

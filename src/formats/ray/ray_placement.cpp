@@ -108,7 +108,10 @@ std::optional<Item> applyTransform(Findings& findings, const Item& call, Affine&
   if (call.value().is(Kind::tuple))
     for (const Item item : call.value()) items.push_back(item);
   const bool hasChild = !items.empty() && !items.back().is(Kind::number) && !items.back().is(Kind::tuple);
-  if (!hasChild) return wrongForm(findings, call, transform, "the object is missing");
+  if (!hasChild)
+    return wrongForm(findings, call, transform,
+                     findings.isOfKind() && !items.empty() ? "the object or a number is missing"
+                                                           : "the object is missing");
 
   const std::optional<Item> child = items.back();
   items.pop_back();
