@@ -296,9 +296,9 @@ bool Materials::studentBump(Block& block, const Item& field) {
   constexpr Real kHeight = 0.02;
   const Item value = field.value();
   if (isNormalMap(field)) {
-    const Item value = insideTexture(field.value());
-    std::string file(value.is(Kind::word) ? value.text() : (*value.value().begin()).text());
-    Texture picture = mappedPicture(std::move(file), findings_.syntax().shortPlace(value.offset()));
+    const Item map = insideTexture(value);
+    std::string file(map.is(Kind::word) ? map.text() : (*map.value().begin()).text());
+    Texture picture = mappedPicture(std::move(file), findings_.syntax().shortPlace(map.offset()));
     TextureNode normals = *picture;
     normals.model.edit<ImageMap>()->relief = Relief::normals;
     setTexture(block.material.textures, "bump", std::move(normals));
