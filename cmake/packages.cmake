@@ -94,6 +94,7 @@ pkg-config, and five examples of ten lines.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-${TRACE_LIBRARY_NAME})
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/debian/python/prerm)
 if(TARGET trace_python)  # whose file name has the version of the interpreter
   math(EXPR nextPython "${TRACE_PYTHON_MINOR} + 1")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS

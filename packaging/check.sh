@@ -113,8 +113,8 @@ assert shape == (24, 32, 3), shape"' >"$work/log" 2>&1 || { cat "$work/log" >&2;
 # What was installed goes without a trace, and a `ray` of somebody else stays what it was.
 tryLeaving() {
   within bare 'dpkg --purge python3-traceray libtraceray-dev libtraceray0 trace-ray-studio trace-ray-doc trace-ray' >"$work/log" 2>&1 || fail "the packages do not go"
-  within bare '! ls -d /usr/bin/ray /usr/bin/trace-ray /usr/libexec/trace-ray /usr/share/doc/trace-ray \
-      /usr/lib/libtraceray* /usr/lib/python3/dist-packages/traceray /etc/alternatives/ray* 2>/dev/null' ||
+  within bare 'for left in /usr/bin/ray /usr/bin/trace-ray /usr/libexec/trace-ray /usr/share/doc/trace-ray /usr/lib/libtraceray* \
+      /usr/lib/python3/dist-packages/traceray /etc/alternatives/ray*; do test ! -e "$left" || { echo "$left"; exit 1; }; done' ||
     fail "files are left"
   within bare "echo other >/usr/bin/ray; $install ./trace-ray_*.deb" >"$work/log" 2>&1 || fail "beside another ray trace-ray does not install"
   within bare 'test "$(cat /usr/bin/ray)" = other && trace-ray --version' >"$work/log" || fail "another ray was overwritten"

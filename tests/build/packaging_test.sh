@@ -9,7 +9,7 @@ grep -q "^trace-ray ($version) " <(head -n 1 "$packaging/debian/changelog") || f
 words() { tr -s ' \n' '\n\n' | grep . | grep -vxF .; }
 cmp -s <(sed -n '/^Permission/,$p' "$1/LICENSE" | words) \
        <(sed -n '/^ Permission/,$p' "$packaging/debian/copyright" | words) || fail "debian/copyright is not our licence"
-for script in "$packaging"/*.sh "$packaging"/debian/{postinst,prerm}; do
+for script in "$packaging"/*.sh "$packaging"/debian/{postinst,prerm} "$packaging"/debian/python/prerm; do
   "$(sed -n '1s/^#!.*[/ ]//p' "$script")" -n "$script" || fail "$script"
 done
 
