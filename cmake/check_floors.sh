@@ -29,7 +29,7 @@ for list in material texture; do
   esac
 done
 seers="$(grep -rlE '^#include "geometry/shape_list.h"' src tests bench | sort | tr '\n' ' ')"
-if [[ "$seers" != 'src/geometry/shape_table.cpp src/render/world_queries.cpp ' ]]; then
+if [[ "$seers" != 'src/geometry/shape_table.cpp src/render/world/world_queries.cpp ' ]]; then
   echo "only the table of shapes and the World's queries include geometry/shape_list.h, not: $seers"
   exit 1
 fi

@@ -2,7 +2,7 @@
 // middle of the levels, as a camera measures before it takes a photograph.
 #pragma once
 
-#include "render/world.h"
+#include "render/world/world.h"
 #include "scene/settings.h"
 
 namespace trace {

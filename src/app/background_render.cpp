@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/passes.h"
+#include "render/picture/passes.h"
 
 namespace trace {
 namespace {

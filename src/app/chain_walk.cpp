@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "app/ray_view.h"
-#include "render/pixel.h"
+#include "render/samples/pixel.h"
 #include "scene/integrators.h"
 
 namespace trace {

@@ -7,7 +7,7 @@
 
 #include "app/background_task.h"
 #include "app/pixel_inspector.h"
-#include "render/metropolis.h"
+#include "render/chains/metropolis.h"
 
 namespace trace {
 

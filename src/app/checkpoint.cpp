@@ -16,7 +16,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/text.h"
-#include "render/sampler.h"
+#include "render/samples/sampler.h"
 #include "scene/options.h"
 
 namespace trace {

@@ -4,7 +4,7 @@
 
 #include "base/budget.h"
 #include "image/denoise.h"
-#include "render/passes.h"
+#include "render/picture/passes.h"
 
 namespace trace {
 

@@ -7,7 +7,7 @@
 #include "app/chain_walk.h"
 #include "app/explained_rays.h"
 #include "app/light_landings.h"
-#include "render/explain.h"
+#include "render/picture/explain.h"
 #include "scene/scene.h"
 
 namespace trace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/ray_segments.h"
-#include "render/ray_tree.h"
+#include "render/rays/ray_tree.h"
 
 namespace trace {
 

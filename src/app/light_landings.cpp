@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/path_ways.h"
-#include "render/pixel.h"
+#include "render/samples/pixel.h"
 
 namespace trace {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/session.h"
-#include "render/light_image.h"
+#include "render/picture/light_image.h"
 
 namespace trace {
 

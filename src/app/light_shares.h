@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "render/ray_tree.h"
+#include "render/rays/ray_tree.h"
 
 namespace trace {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "render/world.h"
+#include "render/world/world.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 

@@ -16,8 +16,9 @@
 #include "base/match.h"
 #include "math/low_discrepancy.h"
 #include "math/perpendicular.h"
-#include "render/onward.h"
-#include "render/pixel.h"
+#include "render/integrators/make_integrator.h"
+#include "render/paths/onward.h"
+#include "render/samples/pixel.h"
 #include "scene/integrators.h"
 
 namespace trace::lint_checks {

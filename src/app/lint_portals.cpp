@@ -6,7 +6,7 @@
 #include "app/lint_checks.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
-#include "render/hit.h"
+#include "render/world/hit.h"
 #include "shading/lights/panel.h"
 
 namespace trace::lint_checks {

@@ -9,7 +9,7 @@
 #include "geometry/mesh/mesh.h"
 #include "image/tone.h"
 #include "math/perpendicular.h"
-#include "render/pixel.h"
+#include "render/samples/pixel.h"
 
 namespace trace {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/mesh/mesh.h"
-#include "render/world.h"
+#include "render/world/world.h"
 
 namespace trace {
 

@@ -7,7 +7,8 @@
 #include "app/lint_rays.h"
 #include "base/budget.h"
 #include "image/tone.h"
-#include "render/pixel.h"
+#include "render/integrators/make_integrator.h"
+#include "render/samples/pixel.h"
 
 namespace trace {
 namespace {

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "image/picture.h"
-#include "render/ray_tree.h"
-#include "render/world.h"
+#include "render/rays/ray_tree.h"
+#include "render/world/world.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 

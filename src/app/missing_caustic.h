@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "render/world.h"
+#include "render/world/world.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 

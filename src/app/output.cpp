@@ -14,7 +14,7 @@
 #include "base/file.h"
 #include "image/anaglyph.h"
 #include "image/codec.h"
-#include "render/passes.h"
+#include "render/picture/passes.h"
 
 namespace trace {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "image/film.h"
 #include "image/metadata.h"
-#include "render/render.h"
+#include "render/picture/render.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/ray_tree.h"
+#include "render/rays/ray_tree.h"
 #include "scene/settings.h"
 
 namespace trace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "render/render.h"
+#include "render/picture/render.h"
 
 namespace trace {
 

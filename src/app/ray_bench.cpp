@@ -8,8 +8,8 @@
 #include "app/session.h"
 #include "base/budget.h"
 #include "math/perpendicular.h"
-#include "render/pixel.h"
-#include "render/render.h"
+#include "render/samples/pixel.h"
+#include "render/picture/render.h"
 
 namespace trace {
 namespace {

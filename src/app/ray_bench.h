@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "render/world.h"
+#include "render/world/world.h"
 #include "scene/settings.h"
 
 namespace trace {

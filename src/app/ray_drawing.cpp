@@ -8,8 +8,8 @@
 #include "app/ray_segments.h"
 #include "app/room.h"
 #include "app/scene_model.h"
-#include "render/passes.h"
-#include "render/render.h"
+#include "render/picture/passes.h"
+#include "render/picture/render.h"
 #include "scene/integrators.h"
 
 namespace trace {

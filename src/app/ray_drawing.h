@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/drawing.h"
-#include "render/explain.h"
-#include "render/world.h"
+#include "render/picture/explain.h"
+#include "render/world/world.h"
 #include "scene/scene.h"
 
 namespace trace {

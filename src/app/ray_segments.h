@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/ray_tree.h"
+#include "render/rays/ray_tree.h"
 
 namespace trace {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/ray_tree.h"
+#include "render/rays/ray_tree.h"
 
 namespace trace {
 

@@ -12,8 +12,8 @@
 #include "base/text.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
-#include "render/lamps.h"
-#include "render/render.h"
+#include "render/lights/lamps.h"
+#include "render/picture/render.h"
 #include "scene/integrators.h"
 #include "scene/options.h"
 

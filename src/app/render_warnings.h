@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "render/world.h"
+#include "render/world/world.h"
 #include "scene/settings.h"
 
 namespace trace {

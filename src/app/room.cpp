@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "render/hit.h"
+#include "render/world/hit.h"
 
 namespace trace {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "math/box.h"
-#include "render/world.h"
+#include "render/world/world.h"
 
 namespace trace {
 

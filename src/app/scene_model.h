@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "geometry/mesh/tessellate.h"
 #include "math/box.h"
-#include "render/world.h"
+#include "render/world/world.h"
 #include "scene/scene.h"
 
 namespace trace {

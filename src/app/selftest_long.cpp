@@ -4,7 +4,7 @@
 
 #include "app/selftest.h"
 #include "formats/format.h"
-#include "render/agreement.h"
+#include "render/picture/agreement.h"
 #include "scene/picture_size.h"
 
 namespace trace {

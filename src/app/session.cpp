@@ -12,8 +12,9 @@
 #include "base/text.h"
 #include "formats/kind_defaults.h"
 #include "image/denoise.h"
-#include "render/passes.h"
-#include "render/photon_map.h"
+#include "render/integrators/make_integrator.h"
+#include "render/picture/passes.h"
+#include "render/maps/photon_map.h"
 #include "scene/integrators.h"
 #include "scene/quality.h"
 

@@ -16,9 +16,9 @@
 #include "app/output.h"
 #include "base/error.h"
 #include "formats/format.h"
-#include "render/explain.h"
-#include "render/integrator.h"
-#include "render/render.h"
+#include "render/picture/explain.h"
+#include "render/samples/integrator.h"
+#include "render/picture/render.h"
 #include "scene/options.h"
 #include "scene/scene.h"
 

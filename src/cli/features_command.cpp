@@ -11,7 +11,7 @@
 #include "cli/manual.h"
 #include "formats/format.h"
 #include "image/codec.h"
-#include "render/passes.h"
+#include "render/picture/passes.h"
 #include "scene/integrators.h"
 #include "scene/scene_features.h"
 #include "shading/library.h"

@@ -17,7 +17,7 @@
 #include "cli/commands.h"
 #include "formats/ray/ray_format.h"
 #include "image/codec.h"
-#include "render/passes.h"
+#include "render/picture/passes.h"
 #include "scene/quality.h"
 #include "shading/library.h"
 #include "shading/substances.h"

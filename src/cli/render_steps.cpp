@@ -12,9 +12,9 @@
 #include "cli/statistics_text.h"
 #include "image/codec.h"
 #include "image/srgb.h"
-#include "render/passes.h"
-#include "render/render.h"
-#include "render/sampler.h"
+#include "render/picture/passes.h"
+#include "render/picture/render.h"
+#include "render/samples/sampler.h"
 
 namespace trace::cli {
 namespace {

@@ -21,7 +21,7 @@
 #include "library/guard.h"
 #include "library/images.h"
 #include "library/scene_state.h"
-#include "render/passes.h"
+#include "render/picture/passes.h"
 #include "scene/integrators.h"
 
 namespace traceray {

@@ -12,7 +12,7 @@
 #include "app/scene_model.h"
 #include "app/way_pyramid.h"
 #include "image/development.h"
-#include "render/visited_boxes.h"
+#include "render/rays/visited_boxes.h"
 #include "studio/scene_drawer.h"
 #include "studio/texture.h"
 

@@ -9,7 +9,7 @@
 #include "base/read_scope.h"
 #include "image/codec.h"
 #include "image/compare.h"
-#include "render/passes.h"
+#include "render/picture/passes.h"
 #include "support/paths.h"
 #include "support/shared.h"
 

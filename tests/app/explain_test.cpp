@@ -11,7 +11,7 @@
 #include "app/session.h"
 #include "base/file.h"
 #include "base/read_scope.h"
-#include "render/visited_boxes.h"
+#include "render/rays/visited_boxes.h"
 #include "support/folder.h"
 #include "support/paths.h"
 #include "support/shared.h"

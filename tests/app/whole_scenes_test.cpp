@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/session.h"
-#include "render/integrator.h"
+#include "render/samples/integrator.h"
 #include "support/paths.h"
 
 namespace trace::test {

@@ -6,7 +6,7 @@
 #include "geometry/shapes/conic.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
-#include "render/explain.h"
+#include "render/picture/explain.h"
 #include "render/integrators/whitted.h"
 #include "shading/materials/conductor.h"
 #include "shading/materials/lambert.h"

@@ -72,7 +72,7 @@ class CameraReader {
       findings_.expected(item.value(), key, "a number above 0, width / height");
   }
 
-  // Numbers of a World can be squared (render/number_range.h). They are checked here, where the place is
+  // Numbers of a World can be squared (render/world/number_range.h). They are checked here, where the place is
   // known.
   static bool isShorter(const Vec3& v) { return maxComponent(abs(v)) <= 1e75; }
   static bool isLength(const Vec3& v) {
