@@ -8,9 +8,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "app/output.h"
-#include "app/remaining_time.h"
-#include "app/session.h"
+#include "app/session/output.h"
+#include "app/session/remaining_time.h"
+#include "app/session/session.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/read_scope.h"

@@ -1,7 +1,7 @@
 // ray features: what this program can do, from its tables.
 #include <string>
 
-#include "app/extensions.h"
+#include "app/compare/extensions.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"

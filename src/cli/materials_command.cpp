@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "app/denoising.h"
-#include "app/output.h"
-#include "app/remaining_time.h"
-#include "app/session.h"
+#include "app/session/denoising.h"
+#include "app/session/output.h"
+#include "app/session/remaining_time.h"
+#include "app/session/session.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"

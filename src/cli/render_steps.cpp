@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/render_warnings.h"
+#include "app/session/render_warnings.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "cli/commands.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/output.h"
+#include "app/session/output.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/read_scope.h"

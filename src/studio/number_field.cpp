@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
-#include "app/short_number.h"
-#include "app/typed_value.h"
+#include "app/editing/short_number.h"
+#include "app/editing/typed_value.h"
 #include "base/field.h"
 #include "base/text.h"
 #include "studio/landmarks.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "base/read_scope.h"
 #include "image/codec.h"
 #include "image/compare.h"

@@ -4,11 +4,11 @@
 
 #include <cstring>
 
-#include "app/drawing.h"
-#include "app/explained_rays.h"
-#include "app/ray_drawing.h"
-#include "app/ray_segments.h"
-#include "app/session.h"
+#include "app/explain/explained_rays.h"
+#include "app/explain/ray_segments.h"
+#include "app/session/session.h"
+#include "app/view/drawing.h"
+#include "app/view/ray_drawing.h"
 #include "base/file.h"
 #include "base/read_scope.h"
 #include "render/rays/visited_boxes.h"

@@ -1,7 +1,7 @@
 // What a render warns of: options and names that change nothing, integrators that do not suit the scene.
 #include <gtest/gtest.h>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "image/codec.h"
 #include "support/scene_files.h"
 

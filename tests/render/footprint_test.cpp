@@ -8,8 +8,8 @@
 
 #include "geometry/mesh/mesh_uv.h"
 #include "geometry/shapes/plane.h"
-#include "render/picture/explain.h"
 #include "render/integrators/make_integrator.h"
+#include "render/picture/explain.h"
 #include "render/samples/pixel.h"
 #include "render/world/world.h"
 #include "shading/optics.h"

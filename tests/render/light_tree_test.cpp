@@ -9,8 +9,8 @@
 #include "base/match.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/square.h"
-#include "render/picture/explain.h"
 #include "render/lights/lamps.h"
+#include "render/picture/explain.h"
 #include "support/random.h"
 #include "support/rooms.h"
 

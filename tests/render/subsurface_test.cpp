@@ -7,8 +7,8 @@
 
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
-#include "render/picture/explain.h"
 #include "render/photons/photons.h"
+#include "render/picture/explain.h"
 #include "shading/materials/subsurface.h"
 #include "support/half_space.h"
 #include "support/rooms.h"

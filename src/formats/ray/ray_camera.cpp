@@ -72,8 +72,8 @@ class CameraReader {
       findings_.expected(item.value(), key, "a number above 0, width / height");
   }
 
-  // Numbers of a World can be squared (render/world/number_range.h). They are checked here, where the place is
-  // known.
+  // Numbers of a World can be squared (render/world/number_range.h). They are checked here, where the place
+  // is known.
   static bool isShorter(const Vec3& v) { return maxComponent(abs(v)) <= 1e75; }
   static bool isLength(const Vec3& v) {
     return v == Vec3{} || (isShorter(v) && maxComponent(abs(v)) >= 1e-75);  // 0 is refused as no direction

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "render/world/move_kind.h"
 #include "render/samples/pixel.h"
+#include "render/world/move_kind.h"
 
 namespace trace {
 

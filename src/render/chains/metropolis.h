@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "image/film.h"
+#include "render/chains/chain.h"
 #include "render/chains/chain_move.h"
 #include "render/chains/primary_sample.h"
-#include "render/chains/chain.h"
 
 namespace trace {
 

@@ -9,9 +9,9 @@
 #pragma once
 
 #include "math/low_discrepancy.h"
-#include "render/world/move_kind.h"
-#include "render/samples/sampler.h"
 #include "render/chains/path.h"
+#include "render/samples/sampler.h"
+#include "render/world/move_kind.h"
 
 namespace trace::veach {
 

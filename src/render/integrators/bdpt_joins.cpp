@@ -1,9 +1,9 @@
 // Where the two paths of Bidirectional are joined: s = 1 and beyond, t = 2 and beyond.
 #include "math/low_discrepancy.h"
-#include "render/rays/firefly.h"
-#include "render/rays/fog.h"
 #include "render/integrators/bdpt_paths.h"
 #include "render/lights/light_choice.h"
+#include "render/rays/firefly.h"
+#include "render/rays/fog.h"
 
 namespace trace {
 

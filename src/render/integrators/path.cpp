@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "render/rays/firefly.h"
-#include "render/world/footprint.h"
 #include "render/integrators/path_state.h"
-#include "render/paths/interaction.h"
 #include "render/media/media.h"
-#include "render/photons/photons.h"
-#include "render/samples/sampler.h"
+#include "render/paths/interaction.h"
 #include "render/paths/subsurface.h"
+#include "render/photons/photons.h"
+#include "render/rays/firefly.h"
+#include "render/samples/sampler.h"
+#include "render/world/footprint.h"
 #include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 

@@ -24,12 +24,12 @@
 
 #include <memory>
 
+#include "render/lights/lamps.h"
+#include "render/maps/irradiance_cache.h"
+#include "render/maps/photon_map.h"
+#include "render/media/media.h"
 #include "render/rays/gather.h"
 #include "render/samples/integrator.h"
-#include "render/maps/irradiance_cache.h"
-#include "render/lights/lamps.h"
-#include "render/media/media.h"
-#include "render/maps/photon_map.h"
 
 namespace trace {
 

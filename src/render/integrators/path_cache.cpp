@@ -6,9 +6,9 @@
 #include <algorithm>
 
 #include "base/budget.h"
-#include "render/samples/hashed_numbers.h"
 #include "render/integrators/path_state.h"
 #include "render/paths/interaction.h"
+#include "render/samples/hashed_numbers.h"
 #include "render/samples/pixel.h"
 #include "shading/materials/lambert.h"
 #include "shading/optics.h"

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "math/low_discrepancy.h"
-#include "render/rays/fog.h"
-#include "render/world/footprint.h"
-#include "render/rays/gather.h"
-#include "render/paths/interaction.h"
 #include "render/media/media.h"
+#include "render/paths/interaction.h"
 #include "render/paths/subsurface.h"
+#include "render/rays/fog.h"
+#include "render/rays/gather.h"
+#include "render/world/footprint.h"
 #include "shading/dispersion.h"
 #include "shading/materials/subsurface.h"
 #include "shading/optics.h"

@@ -3,8 +3,8 @@
 //
 // Known are squares, spheres that stayed spheres, and meshes, whose own material is emissive. Other emissive
 // objects are only met at random. How often one is chosen follows from its area and its colour, and where
-// they have many parts also from the distance (render/world/light_tree.h). The environment is chosen half of the
-// time, if it is brighter here than there or if portals show where it is seen.
+// they have many parts also from the distance (render/world/light_tree.h). The environment is chosen half of
+// the time, if it is brighter here than there or if portals show where it is seen.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "math/spherical_rectangle.h"
-#include "render/world/light_tree.h"
 #include "render/lights/sky_table.h"
 #include "render/rays/tracer.h"
+#include "render/world/light_tree.h"
 
 namespace trace {
 

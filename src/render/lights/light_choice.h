@@ -1,8 +1,8 @@
 // The lights of the scene that a place samples: all, or some that are chosen at random where they are many.
 #pragma once
 
-#include "render/samples/sampler.h"
 #include "render/rays/tracer.h"
+#include "render/samples/sampler.h"
 #include "scene/integrators.h"
 
 namespace trace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "render/lights/lamps.h"
-#include "render/samples/sampler.h"
 #include "render/rays/tracer.h"
+#include "render/samples/sampler.h"
 
 namespace trace {
 

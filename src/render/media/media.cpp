@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "math/low_discrepancy.h"
-#include "render/rays/fog.h"
 #include "render/lights/light_choice.h"
+#include "render/rays/fog.h"
 
 namespace trace {
 namespace {

@@ -14,9 +14,9 @@
 #include <optional>
 #include <vector>
 
-#include "render/rays/gather.h"
 #include "render/lights/lamps.h"
 #include "render/maps/photon_map.h"
+#include "render/rays/gather.h"
 #include "render/samples/sampler.h"
 
 namespace trace {

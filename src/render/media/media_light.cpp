@@ -1,7 +1,7 @@
 // The light of lights and lamps that media and fog scatter to a ray.
-#include "render/rays/fog.h"
 #include "render/lights/light_choice.h"
 #include "render/media/media.h"
+#include "render/rays/fog.h"
 
 namespace trace {
 

@@ -1,9 +1,9 @@
 #include "render/paths/interaction.h"
 
 #include "math/low_discrepancy.h"
-#include "render/rays/fog.h"
 #include "render/lights/light_choice.h"
 #include "render/media/media.h"
+#include "render/rays/fog.h"
 #include "shading/fresnel.h"
 #include "shading/materials/marschner.h"
 #include "shading/materials/subsurface.h"

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "render/rays/gather.h"
 #include "render/maps/photon_map.h"
+#include "render/rays/gather.h"
 #include "render/samples/sampler.h"
 #include "shading/dispersion.h"
 
@@ -54,8 +54,8 @@ class Interaction {
   }
 
   /// Adds what arrives of the lights of the scene, by shadow rays, and is scattered to where the ray comes
-  /// from: of all of them, or of Settings::lightChoices (render/lights/light_choice.h). Lights with a size are asked
-  /// for Settings::lightSamples of their places.
+  /// from: of all of them, or of Settings::lightChoices (render/lights/light_choice.h). Lights with a size
+  /// are asked for Settings::lightSamples of their places.
   void addLights(Gather& sum, const Sampler& sampler) const;
 
   /// Adds `factor` times the part of the half space above the surface that is open, by so many rays, whose

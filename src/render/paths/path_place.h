@@ -4,8 +4,8 @@
 // of the lobe, and no direction is slanted: the cosine is 1.
 #pragma once
 
-#include "render/paths/interaction.h"
 #include "render/media/media.h"
+#include "render/paths/interaction.h"
 #include "render/paths/onward.h"
 
 namespace trace {

@@ -1,9 +1,9 @@
 #include "render/photons/photon_emitter.h"
 
 #include "math/warp.h"
-#include "render/paths/interaction.h"
 #include "render/lights/light_kinds.h"
 #include "render/lights/parallel_light.h"
+#include "render/paths/interaction.h"
 #include "shading/lights/panel.h"
 
 namespace trace {

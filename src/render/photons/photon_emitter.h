@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "math/low_discrepancy.h"
-#include "render/rays/fog.h"
-#include "render/samples/hashed_numbers.h"
 #include "render/maps/illumination_map.h"
 #include "render/media/media.h"
 #include "render/photons/photon_targets.h"
+#include "render/rays/fog.h"
+#include "render/samples/hashed_numbers.h"
 #include "shading/materials/subsurface.h"
 
 namespace trace {

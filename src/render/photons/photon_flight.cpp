@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "render/paths/onward.h"
-#include "render/photons/photon_emitter.h"
 #include "render/paths/subsurface.h"
+#include "render/photons/photon_emitter.h"
 #include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 

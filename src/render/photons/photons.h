@@ -3,8 +3,8 @@
 #pragma once
 
 #include "base/parallel.h"
-#include "render/maps/illumination_map.h"
 #include "render/lights/lamps.h"
+#include "render/maps/illumination_map.h"
 #include "render/maps/photon_map.h"
 #include "render/world/world.h"
 #include "scene/settings.h"

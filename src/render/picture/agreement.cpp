@@ -6,8 +6,8 @@
 
 #include "image/srgb.h"
 #include "math/hypothesis.h"
-#include "render/samples/integrator.h"
 #include "render/picture/passes.h"
+#include "render/samples/integrator.h"
 
 namespace trace {
 namespace {

@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "render/rays/ray_tree.h"
 #include "render/picture/render.h"
+#include "render/rays/ray_tree.h"
 #include "render/world/world.h"
 #include "scene/settings.h"
 

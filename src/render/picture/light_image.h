@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "render/samples/integrator.h"
 #include "render/picture/render.h"
+#include "render/samples/integrator.h"
 
 namespace trace {
 

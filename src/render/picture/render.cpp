@@ -12,8 +12,8 @@
 
 #include "base/budget.h"
 #include "math/noise.h"
-#include "render/integrators/make_integrator.h"
 #include "render/chains/metropolis.h"
+#include "render/integrators/make_integrator.h"
 #include "render/picture/passes.h"
 #include "render/samples/pixel.h"
 

@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "geometry/materials.h"
+#include "render/maps/photon_map.h"
 #include "render/world/hit.h"
 #include "render/world/interfaces.h"
 #include "render/world/outside.h"
-#include "render/maps/photon_map.h"
 #include "render/world/statistics.h"
 #include "scene/scene.h"
 

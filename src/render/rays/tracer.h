@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "render/world/hit.h"
 #include "render/rays/ray_tree.h"
+#include "render/world/hit.h"
 #include "render/world/world.h"
 #include "scene/integrators.h"
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "render/samples/sampler.h"
 #include "render/rays/tracer.h"
+#include "render/samples/sampler.h"
 #include "scene/integrators.h"
 
 namespace trace {

@@ -4,9 +4,9 @@
 #pragma once
 
 #include "math/vec.h"
-#include "render/world/hit.h"
-#include "render/samples/picture_size.h"
 #include "render/rays/tracer.h"
+#include "render/samples/picture_size.h"
+#include "render/world/hit.h"
 
 namespace trace {
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "image/film.h"
-#include "render/world/footprint.h"
 #include "render/samples/integrator.h"
 #include "render/samples/outline.h"
+#include "render/world/footprint.h"
 
 namespace trace {
 
