@@ -171,16 +171,16 @@ Vec3 turnedAlong(const Vec3& direction, const Vec3& from, const Vec3& to) {
 bool Interaction::continues(const Vec3& to, Real height) const {
   constexpr Real kNearest = 0.7, kFarthest = 2, kSteepest = 0.045;  // as a fraction of the distance
   const Vec3 up = trueNormal(), from = hit.surface.point + up * height;
-  const Ray ray{from, normalize(to - from)};
-  const std::optional<Found> found = tracer.look(ray, RayKind::bounce);
+  const Ray down{from, normalize(to - from)};
+  const std::optional<Found> found = tracer.look(down, RayKind::bounce);
   if (!found) return false;
-  const SurfacePoint there = tracer.world().surface(ray, *found);
-  const Vec3 normal = dot(there.normal, ray.direction) < 0 ? there.normal : -there.normal;
-  if (dot(normal, up) < PhotonMap::kAlike) return false;
+  const SurfacePoint there = tracer.world().surface(down, *found);
+  const Vec3 facing = dot(there.normal, down.direction) < 0 ? there.normal : -there.normal;
+  if (dot(facing, up) < PhotonMap::kAlike) return false;
   const Vec3 way = there.point - hit.surface.point;
   const Real distance = length(to - hit.surface.point), away = length(way);
   return away > kNearest * distance && away < kFarthest * distance &&
-         std::abs(dot(way, normal + up)) / 2 < kSteepest * away;
+         std::abs(dot(way, facing + up)) / 2 < kSteepest * away;
 }
 
 bool Interaction::hasDisk(Real radius, Sampler numbers) const {
