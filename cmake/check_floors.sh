@@ -17,8 +17,9 @@ formats render
 app
 cli studio library'
 
-# Floors that are divided into rooms, each from the bottom: a room sees only those before it in the row.
-rooms='app session lint compare explain editing view
+# Folders that are divided into rooms, each from the bottom: a room sees only those before it in the row.
+rooms='formats/ray syntax read language file write
+app session lint compare explain editing view
 render world maps rays samples lights media paths photons integrators chains picture'
 most=30  # files in a room
 
@@ -42,18 +43,19 @@ if grep -rnE '[!=]= *IntegratorKind::' src; then
   echo 'ask for a trait (scene/integrators.h), not for one integrator'
   exit 1
 fi
-while read -r floor names; do
+while read -r folder names; do
   for room in $names; do
-    count="$(find "src/$floor/$room" -type f | wc -l)"
+    count="$(find "src/$folder/$room" -type f | wc -l)"
     if ((count > most)); then
-      echo "src/$floor/$room has $count files; a room has at most $most"
+      echo "src/$folder/$room has $count files; a room has at most $most"
       exit 1
     fi
   done
 done <<<"$rooms"
 { grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]' src || true; } | FLOORS="$floors" ROOMS="$rooms" awk '
   function complain(what) { print file ":" number ": error: " what; wrong++ }
-  function roomOf(path) { match(path, /^[^\/]*\/[^\/]*/); return substr(path, 1, RLENGTH) }
+  function isIn(path, folder) { return substr(path, 1, length(folder) + 1) == folder "/" }
+  function roomOf(path, folder) { path = substr(path, length(folder) + 2); sub(/\/.*/, "", path); return path }
 
   BEGIN {
     height = split(ENVIRON["FLOORS"], rows, "\n")
@@ -64,7 +66,7 @@ done <<<"$rooms"
     height = split(ENVIRON["ROOMS"], rows, "\n")
     for (i = 1; i <= height; i++) {
       n = split(rows[i], names, " ")
-      for (j = 2; j <= n; j++) room[names[1] "/" names[j]] = j
+      for (j = 2; j <= n; j++) room[names[1], names[j]] = j
       divided[names[1]]
     }
   }
@@ -83,11 +85,13 @@ done <<<"$rooms"
       uses[from, to]++; total++
       if (level[to] >= level[from])
         complain(from " includes \"" header "\", but " to " is " (level[to] > level[from] ? "above" : "beside") " it")
-    } else if (to == from && from in divided) {
-      here = roomOf(substr(file, 5)); there = roomOf(header)
-      if (!(here in room)) complain("\"" here "\" is no room of " from "; the list is at the top of cmake/check_floors.sh")
-      else if (!(there in room)) complain("\"" header "\": there is no room \"" there "\"")
-      else if (room[there] > room[here]) complain(here " includes \"" header "\", but the room " there " is above it")
+    }
+    for (folder in divided) {
+      if (!isIn(path = substr(file, 5), folder)) continue
+      here = roomOf(path, folder)
+      if (!((folder, here) in room)) complain("\"" here "\" is no room of " folder "; the list is at the top of cmake/check_floors.sh")
+      else if (isIn(header, folder) && room[folder, roomOf(header, folder)] > room[folder, here])
+        complain(here " includes \"" header "\", but that room is above it")
     }
   }
 

@@ -22,7 +22,7 @@
 #include "formats/format.h"
 #include "formats/known_fields.h"
 #include "formats/mesh/revolve.h"
-#include "formats/ray/ray_format.h"
+#include "formats/ray/file/format.h"
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 

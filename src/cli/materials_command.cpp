@@ -15,7 +15,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "formats/ray/ray_format.h"
+#include "formats/ray/file/format.h"
 #include "image/codec.h"
 #include "render/picture/passes.h"
 #include "scene/quality.h"

@@ -9,8 +9,8 @@
 #include "base/text.h"
 #include "formats/format.h"
 #include "formats/kind_defaults.h"
-#include "formats/ray/ray_format.h"
-#include "formats/ray/ray_patch.h"
+#include "formats/ray/file/format.h"
+#include "formats/ray/write/patch.h"
 #include "scene/quality.h"
 
 namespace trace {

@@ -85,11 +85,11 @@ class Document {
   /// Reads the scene as it is at another time, with its edits; null if it does not change.
   SceneAt sceneAt() const;
   /// Writes the scene, with the options that were chosen here, as a .ray file, which is the document's file
-  /// from now on: the text that was read, if that was a .ray file, with the edits (formats/ray/ray_patch.h).
-  /// Where the document's file says something that would be lost then, of its text or of another one that was
-  /// read meanwhile and undone, it is kept in a file beside. Returns warnings of what was lost. Throws Error,
-  /// also if the file could not be read again as the same scene (app/editing/read_back.h); nothing is written
-  /// then, and the document stays.
+  /// from now on: the text that was read, if that was a .ray file, with the edits
+  /// (formats/ray/write/patch.h). Where the document's file says something that would be lost then, of its
+  /// text or of another one that was read meanwhile and undone, it is kept in a file beside. Returns warnings
+  /// of what was lost. Throws Error, also if the file could not be read again as the same scene
+  /// (app/editing/read_back.h); nothing is written then, and the document stays.
   std::vector<Message> save(const std::string& file);
 
   // --- in parts: a step for which the file is read ---

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "formats/ray/ray_fields.h"
+#include "formats/ray/read/fields.h"
 
 namespace trace {
 

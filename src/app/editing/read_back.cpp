@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/read_scope.h"
-#include "formats/ray/ray_same.h"
+#include "formats/ray/write/same.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/height_field.h"
 

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "formats/ray/ray_names.h"
+#include "formats/ray/syntax/names.h"
 
 namespace trace {
 

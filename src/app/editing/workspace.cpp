@@ -11,7 +11,7 @@
 #include "app/session/output.h"
 #include "app/session/render_warnings.h"
 #include "base/text.h"
-#include "formats/ray/ray_names.h"
+#include "formats/ray/syntax/names.h"
 #include "image/codec.h"
 #include "scene/quality.h"
 

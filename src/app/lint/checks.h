@@ -10,7 +10,7 @@
 #include "app/lint/lint.h"
 #include "app/lint/rays.h"
 #include "app/lint/survey.h"
-#include "formats/ray/ray_remarks.h"
+#include "formats/ray/syntax/remarks.h"
 #include "math/box.h"
 
 namespace trace {

@@ -9,7 +9,7 @@
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "formats/ray/ray_format.h"
+#include "formats/ray/read/material.h"
 #include "geometry/mesh/mesh_repair.h"
 #include "geometry/traced.h"
 
@@ -47,7 +47,7 @@ Real roundedTo(Real value) {
 }
 
 bool isOfArea(const Message& message) { return message.what.starts_with(kWithoutArea); }
-bool isOfGlass(const Message& message) { return message.what.starts_with(kInheritsGlass); }
+bool isOfGlass(const Message& message) { return message.what.starts_with(rayfile::kInheritsGlass); }
 
 }  // namespace lint_checks
 
