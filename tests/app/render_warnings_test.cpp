@@ -132,7 +132,7 @@ TEST(RenderWarnings, AreToldWithTheirReason) {
   about("point_light { position = (0, 5, 5); color = (1, 1, 1); }\nsphere { }",
         {{"ambient-occlusion", "4", {}}}, "no ambient light");
   about(kLit, {{"caustic-texels", "256", {}}}, "--caustic-texels changes nothing");
-  about("torus { material = { emissive = (1, 1, 1); }; }", {{"lamp-samples", "4", {}}},
+  about("menger { material = { emissive = (1, 1, 1); }; }", {{"lamp-samples", "4", {}}},
         "--lamp-samples changes nothing");
   const std::string lamp = "sphere { material = { emissive = (1, 1, 1); } }";
   about(lamp + "box { material = { diffuse = (1, 1, 1); } }", {}, "they light nothing");

@@ -231,7 +231,7 @@ std::optional<Cure> unsampledEmitter(const Scene& scene, const World& world) {
         object.place,
         "; rays find this emissive " + std::string(object.shape.keyword()) +
             " at random alone, since its shape is not sampled as a light",
-        "squares, meshes, and spheres with the same scale along all axes are; or put a point_light there"};
+        "squares, disks, boxes, spheres, cylinders, cones, tori and meshes are; or put a point_light there"};
   }
   return {};
 }

@@ -223,7 +223,7 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
     warn("--caustic-texels changes nothing: there are no photons to gather", "--caustics 200000 sends some");
   if (isConcerned("lamp-samples") && s.lampSamples > 0 && Lamps(world, s.threads, true).empty())
     warn(
-        "--lamp-samples changes nothing: no square, ball or mesh of the scene is emissive, and its sky is "
+        "--lamp-samples changes nothing: no object that is sampled as a light is emissive, and its sky is "
         "uniform",
         "give an object an emissive color; other emissive shapes light nothing");
   if (isConcerned("ambient-occlusion") && s.ambientOcclusion > 0 && isBlack(world.ambient()))

@@ -215,7 +215,8 @@ bool Moves::walkFromLight(Walk& walk, Path& from, const Kept& kept, std::size_t 
                                                                   : -end.hit.surface.normal;
     } else {
       const Real which = numbers_.next();
-      const auto lamp = stage_.lamps.start(which, numbers_.next2());
+      const Vec2 place = numbers_.next2(), line = stage_.lamps.hasBodies() ? numbers_.next2() : Vec2{};
+      const auto lamp = stage_.lamps.start(paths_.tracer.world(), which, place, line);
       if (!lamp) return false;
       normal = lamp->twoSided && numbers_.next() < 0.5 ? -lamp->normal : lamp->normal;
       start = Lamps::placeOf(paths_.tracer, *lamp, normal, RayKind::light);

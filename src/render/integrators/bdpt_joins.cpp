@@ -73,7 +73,7 @@ void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path,
   Tracer& tracer = sum.tracer();
   Sampler numbers = sampler.branch(Branch::lamp);
   const Real which = numbers.next();
-  const auto place = lamps_.choose(at.point(), which, numbers.next2());
+  auto place = lamps_.choose(at.point(), which, numbers.next2());
   if (!place) return;
   const Vec3& toLight = place->toLight;
   const int t = path.t();

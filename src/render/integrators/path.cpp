@@ -344,7 +344,7 @@ void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, c
   // The second pair of the numbers that led here: what depends on both is spread evenly, too.
   const Vec2 where = sampler.branch(Branch::arrival).second2();
   const Real which = lamps_.isOne() ? 0 : numbers.next();
-  const auto place = lamps_.choose(at.lightPlace(), which, where);
+  auto place = lamps_.choose(at.lightPlace(), which, where);
   if (!place) return;
   const Vec3 toEye = -at.ray.direction;
   const Color scattered =

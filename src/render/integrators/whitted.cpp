@@ -230,7 +230,7 @@ void Whitted::addLamps(Gather& sum, const Interaction& at, bool glossy, const Sa
   const Real which = numbers.next();
   for (int n = 0; n < rays; ++n) {
     const Vec2 u = rotated(sobolPoint(static_cast<std::uint32_t>(n)), first);
-    const auto place = lamps_.choose(at.lightPlace(), (n + which) / rays, u);
+    auto place = lamps_.choose(at.lightPlace(), (n + which) / rays, u);
     if (!place) continue;
     const Scatter parts = scatter(at.bsdf(), at.frame, place->toLight, -at.ray.direction);
     Color scattered =

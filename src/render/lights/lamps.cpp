@@ -17,6 +17,7 @@ namespace trace {
 namespace {
 
 constexpr Real kSphere = 4 * kPi;
+constexpr Real kBelowOne = 1 - 0x1p-53;
 
 /// The factor by which it scales all lengths alike; 0 if it does not.
 Real uniformScale(const Affine& m) {
@@ -33,8 +34,7 @@ Real uniformScale(const Affine& m) {
 
 bool Lamps::canSample(const World& world, std::uint32_t object) {
   const std::string_view shape = world.shapeOf(object);
-  return world.meshTree(object) || shape == Square::kKeyword ||
-         (shape == Sphere::kKeyword && uniformScale(world.worldFromObject(object)) > 0);
+  return world.meshTree(object) || shape == Square::kKeyword || BodyLamp::of(world, object);
 }
 
 Lamps::Lamps(const World& world, int threads, bool onlyHere)
@@ -50,16 +50,22 @@ Lamps::Lamps(const World& world, int threads, bool onlyHere)
       for (const Triangle& t : mesh.triangles) {
         const auto corner = [&](std::size_t i) { return (m * Vec3(mesh.points[t[i]])); };
         const Vec3 origin = corner(0), a = corner(1) - origin, b = corner(2) - origin;
-        add({Part::Kind::triangle, object, origin, a, b, length(cross(a, b)) / 2, 0}, emissive);
+        const Real area = length(cross(a, b)) / 2;
+        add({Part::Kind::triangle, object, origin, a, b, area, 0}, area, 2, emissive);
       }
     } else if (shape == Square::kKeyword) {
       const Vec3 a = linear(m, Vec3{1, 0, 0}), b = linear(m, Vec3{0, 1, 0});
       const bool upright = std::abs(dot(a, b)) <= 1e-9 * length(a) * length(b);
+      const Real area = length(cross(a, b));
       add({upright && !onlyHere ? Part::Kind::rectangle : Part::Kind::parallelogram, object,
-           m * Vec3{-0.5, -0.5, 0}, a, b, length(cross(a, b)), 0},
-          emissive);
+           m * Vec3{-0.5, -0.5, 0}, a, b, area, 0},
+          area, 2, emissive);
     } else if (const Real radius = uniformScale(m); shape == Sphere::kKeyword && radius > 0) {
-      add({Part::Kind::sphere, object, m * Vec3{}, {}, {}, radius, 0}, emissive);
+      add({Part::Kind::sphere, object, m * Vec3{}, {}, {}, radius, 0}, kSphere * radius * radius, 1, emissive);
+    } else if (const auto body = BodyLamp::of(world, object)) {
+      add({Part::Kind::body, object, body->middle(), {}, {}, body->radius(), 0, bodies_.size()}, body->area(),
+          body->closed() ? 1 : 2, emissive);
+      bodies_.push_back(*body);
     }
     if (parts_.size() > first) first_[object] = first;
   }
@@ -77,18 +83,16 @@ Lamps::Lamps(const World& world, int threads, bool onlyHere)
   for (Real& s : sums_) s /= sum;
 }
 
-void Lamps::add(const Part& part, const Color& emissive) {
+void Lamps::add(const Part& part, Real area, Real sides, const Color& emissive) {
   parts_.push_back(part);
-  const Real area = part.kind == Part::Kind::sphere ? kSphere * part.size * part.size : part.size;
   parts_.back().share = area * luminanceOf(emissive);
-  const Real sides = part.kind == Part::Kind::sphere ? 1 : 2;
   power_ += kPi * sides * parts_.back().share;
 }
 
 /// `power`: what its light is at distance 1 if it is turned to a place, as a part of pi.
 LightReach Lamps::Part::reach(Real power) const {
   LightReach reach;
-  if (kind == Kind::sphere) {
+  if (round()) {
     reach.box = {origin - Vec3(size, size, size), origin + Vec3(size, size, size)};
     reach.power = power / 4;  // the area of its disk
     return reach;
@@ -145,6 +149,11 @@ Vec3 Lamps::placeOn(const Part& part, const Vec2& u) {
   return part.origin + part.edgeA * v.x + part.edgeB * v.y;
 }
 
+Real Lamps::density(const Part& part, const Vec3& from, const Vec3& at) const {
+  if (part.kind != Part::Kind::body) return part.density(from, at);
+  return bodies_[part.body].density(from, normalize(at - from));
+}
+
 Real Lamps::Part::density(const Vec3& from, const Vec3& at) const {
   if (kind == Kind::sphere) {
     const Real away2 = dot(origin - from, origin - from), radius2 = size * size;
@@ -198,6 +207,11 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
     const Real along = dot(to, toLight);
     distance = along - std::sqrt(std::max(0.0, radius2 - (away2 - along * along)));
     density = part.density(from, part.origin);
+  } else if (part.kind == Part::Kind::body) {
+    const BodyLamp::Aim aim = bodies_[part.body].aim(from, u);
+    toLight = aim.direction;
+    distance = aim.farthest;
+    density = aim.density;
   } else {
     const auto rectangle = part.seen(from);
     const Vec3 at = rectangle ? rectangle->place(u) : placeOn(part, u);
@@ -210,9 +224,19 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
   return Place{part.object, inObject, toLight, density, distance};
 }
 
-std::optional<Lamps::Start> Lamps::start(Real which, const Vec2& u) const {
+std::optional<Lamps::Start> Lamps::start(const World& world, Real which, const Vec2& u,
+                                         const Vec2& line) const {
   if (parts_.empty()) return {};
-  const Part& part = parts_[partOf(which)];
+  const std::size_t number = partOf(which);
+  const Part& part = parts_[number];
+  if (part.kind == Part::Kind::body) {
+    const BodyLamp& body = bodies_[part.body];
+    const Real before = number > 0 ? sums_[number - 1] : 0;  // what is left of the number chooses the crossing
+    const Real rest = std::clamp((which - before) / part.share, 0.0, kBelowOne);
+    const auto place = body.place(world, u, line, rest);
+    if (!place) return {};
+    return Start{part.object, place->point, place->normal, false, part.size, part.share * body.perArea()};
+  }
   if (part.kind == Part::Kind::sphere) {
     const Vec3 normal = sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y);
     const Real area = kSphere * part.size * part.size;
@@ -239,21 +263,24 @@ Real Lamps::density(const Vec3& from, const Hit& hit) const {
   if (!isLamp(hit.object)) return 0;
   const Part& part = partOf(hit.object, hit.part);
   const auto number = static_cast<std::size_t>(&part - parts_.data());
-  return (1 - skyShare()) * shareOf(number, from) * part.density(from, hit.surface.point);
+  return (1 - skyShare()) * shareOf(number, from) * density(part, from, hit.surface.point);
 }
 
-Real Lamps::Part::perArea() const {
-  return kind == Kind::sphere ? share / (kSphere * size * size) : size > 0 ? share / (2 * size) : 0;
+Real Lamps::perArea(const Part& part) const {
+  if (part.kind == Part::Kind::body) return part.share * bodies_[part.body].perArea();
+  if (part.kind == Part::Kind::sphere) return part.share / (kSphere * part.size * part.size);
+  return part.size > 0 ? part.share / (2 * part.size) : 0;
 }
 
 Real Lamps::startDensity(std::uint32_t object, std::uint64_t part) const {
-  return isLamp(object) ? partOf(object, part).perArea() : 0;
+  return isLamp(object) ? perArea(partOf(object, part)) : 0;
 }
 
 Real Lamps::startDensity(const Hit& hit) const {
   if (!isLamp(hit.object)) return 0;
   const Part& part = partOf(hit.object, hit.part);
-  return part.kind == Part::Kind::sphere && hit.leaving ? 0 : part.perArea();  // nothing starts inward
+  const bool closed = part.kind == Part::Kind::body ? bodies_[part.body].closed() : part.round();
+  return closed && hit.leaving ? 0 : perArea(part);  // nothing starts inward
 }
 
 Real Lamps::skyStartDensity(const Vec3& toLight) const {
@@ -266,13 +293,13 @@ bool Lamps::isPlain(const Tracer& tracer, const Place& place, const Interfaces& 
          !(tracer.settings().fog > 0) && !tracer.records();
 }
 
-Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, const Interfaces& from,
-                  Real chance) const {
+Color Lamps::look(Tracer& tracer, const Ray& ray, Place& place, const Interfaces& from, Real chance) const {
   if (isPlain(tracer, place, from)) {
     constexpr Real kBehind = 1 + 0x1p-10;  // relative to the distance: what lies farther away is not asked
     ++tracer.statistics().depths;
     const auto found = tracer.nearest(ray, RayKind::lamp, place.distance * kBehind);
     if (!found || !met(place, *found)) return Color(0);
+    if (isBody(place)) place.distance = found->t;
     return tracer.world().termsOf(place.object).emissive * from.passed(found->t);
   }
   Interfaces inside = from;
@@ -291,6 +318,7 @@ Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, const Inte
     light.note(Indices(inside.at(hit->leaving, tracer.filling(*hit, whitted(*bsdf)), hit->solid),
                        inside.wavelength, inside.nested()));
   if (met(place, *hit)) {
+    if (isBody(place)) place.distance = hit->t;
     light.add(Term::Kind::emissive, whitted(*bsdf).emissive);
     coverWithFog(light, tracer, ray, hit->t, inside);
   } else {
@@ -299,9 +327,17 @@ Color Lamps::look(Tracer& tracer, const Ray& ray, const Place& place, const Inte
   return light.radiance(inside.passed(hit->t));
 }
 
-Color Lamps::sent(Tracer& tracer, const Ray& ray, const Place& place) const {
+Color Lamps::sent(Tracer& tracer, const Ray& ray, Place& place) const {
   const World& world = tracer.world();
   if (place.object == kNone) return world.outside().view(ray, RayKind::lamp).color;
+  if (isBody(place)) {
+    const BodyLamp& body = bodies_[parts_[first_[place.object]].body];
+    const auto met = body.meets(world, ray, tracer.statistics());
+    if (!met) return Color(0);
+    place.distance = met->t;
+    const Real there = world.hasHoles() ? world.opacityAt(ray, *met) : 1;
+    return whitted(*world.bsdfAt(ray, *met)).emissive * there;
+  }
   const Ray last{ray.at(place.distance * kBefore), ray.direction};
   const auto found = tracer.look(last, RayKind::lamp);
   if (!found || found->object != place.object) return Color(0);

@@ -208,7 +208,9 @@ std::optional<LightStarts::Arrival> LightStarts::arrives(const World& world, con
 
 std::optional<LightStarts::Start> LightStarts::fromLamp(Tracer& tracer, Real which,
                                                         const Sampler& sampler) const {
-  const auto from = lamps_->start(which, sampler.branch(kPlace).next2());
+  const Sampler placing = sampler.branch(kPlace);
+  const Vec2 line = lamps_->hasBodies() ? placing.second2() : Vec2{};
+  const auto from = lamps_->start(tracer.world(), which, Sampler(placing).next2(), line);
   if (!from) return {};
   Sampler numbers = sampler.branch(kDirection);
   const Vec3 local = cosineDirection(numbers.next2());

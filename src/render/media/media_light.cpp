@@ -31,7 +31,7 @@ void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lam
   if (lamps.empty()) return;
   Sampler chances = numbers.branch(Branch::scatteredLamp);
   const Real which = chances.next();
-  const auto lamp = lamps.choose(place.point, which, chances.next2());
+  auto lamp = lamps.choose(place.point, which, chances.next2());
   if (!lamp) return;
   const Ray toLamp{place.point, lamp->toLight};
   const Color seen = lamps.look(tracer, toLamp, *lamp, place.inside, tracer.chance(chances));

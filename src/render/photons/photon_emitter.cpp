@@ -88,7 +88,8 @@ std::optional<PhotonEmitter::Flight> PhotonEmitter::fromLight(const PhotonSource
 
 std::optional<PhotonEmitter::Flight> PhotonEmitter::fromLamp(const PhotonSource& source) {
   const Vec2 choice = pair(3);
-  const auto start = lamps_->start(choice.x, pair(1));
+  const Vec2 line = lamps_->hasBodies() ? pair(4) : Vec2{};
+  const auto start = lamps_->start(world_, choice.x, pair(1), line);
   if (!start) return {};
   Vec3 normal = start->normal;
   const bool back = start->twoSided && chance() < 0.5;

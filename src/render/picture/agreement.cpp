@@ -7,6 +7,7 @@
 #include "image/srgb.h"
 #include "math/hypothesis.h"
 #include "render/picture/passes.h"
+#include "render/picture/render.h"
 #include "render/samples/integrator.h"
 
 namespace trace {

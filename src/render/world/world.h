@@ -190,6 +190,8 @@ class World {
 
   /// In world space; empty of one that is left out.
   const Box3& boundsOf(std::uint32_t object) const { return objects_[object].bounds; }
+  /// In its own space, perhaps with room left.
+  Box3 ownBoundsOf(std::uint32_t object) const { return objects_[object].shape.bounds(); }
   /// The object's shape, "" of one that is left out.
   std::string_view shapeOf(std::uint32_t object) const {
     const Instance& o = objects_[object];
