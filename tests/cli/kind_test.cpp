@@ -47,6 +47,18 @@ double meanLevel(const Picture& picture) {
 
 using Kind = ProgramTest;
 
+TEST_F(Kind, RayAloneWithoutADisplayRendersAFirstScene) {
+  const Variables noDisplay{{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
+  const auto first = run({}, noDisplay);
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_TRUE(contains(first.err, "wrote scene.png (640x480)")) << first.err;
+  EXPECT_GT(meanLevel(readPicture(path("scene.png"))), 60);
+  EXPECT_EQ(readFile(path("scene.ray")).substr(0, 7), "Trace 1");
+  const auto again = run({}, noDisplay);
+  EXPECT_EQ(again.code, 2) << "nothing is written over";
+  EXPECT_TRUE(contains(again.err, "ray SCENE renders without a window")) << again.err;
+}
+
 TEST_F(Kind, ABareObjectIsAPictureWorthLookingAt) {
   writeFile(path("ball.ray"), "Trace 1\nsphere { }\n");
   const auto result = run({"ball.ray", "ball.png", "-w", "32", "--spp", "16"});
