@@ -140,7 +140,7 @@ const Choices kPhotonDeep = choices({{"integrator", "photon"},
                                      {"photon-passes", "4"},
                                      {"spp", "16"},
                                      {"depth", "20"}});
-// Fewer photons blur the narrow light that metal throws, and few rays hit its lamp by chance.
+// Fewer photons blur the narrow light that metal reflects, and few rays hit its lamp at random.
 const Choices kPhotonSharp = choices({{"integrator", "photon"},
                                       {"photons", "1000000"},
                                       {"photon-passes", "4"},
