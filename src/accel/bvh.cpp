@@ -52,7 +52,7 @@ struct Bvh::Builder {
     for (const BoxedItem& item : items.subspan(b.first, b.count)) sum += boxOf(item).halfArea();
     return sum;
   }
-  /// How full of items the box is: the likelier a ray that meets the one ends at the others.
+  /// How full of items the box is: the likelier a ray that hits the one ends at the others.
   float density(const Branch& b) {
     const float density = itemArea(b) / boxOf(b).halfArea();
     return density >= 0 ? density : 0;  // 0 / 0 is a point

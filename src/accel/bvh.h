@@ -41,7 +41,7 @@ class Bvh {
   static Bvh bruteForce(std::span<const Box3> boxes);
   static Bvh bruteForce(std::span<const BoxedItem> items);
 
-  /// Calls visit(item), which returns true to end the query, for each item whose box the ray may meet at
+  /// Calls visit(item), which returns true to end the query, for each item whose box the ray may hit at
   /// 0 <= t <= tMost, nearer boxes first if asked. `tMost` may shrink during the calls. `nodes`, a NodeCount
   /// or a NodeWatch, hears of the nodes visited. For trees with single items only; items that are tested
   /// together have a way of their own (geometry/mesh/mesh_kernel.h). The item `skip` is left out.

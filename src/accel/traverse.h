@@ -110,7 +110,7 @@ inline Pending pending(float near, std::uint32_t child) {
 }
 
 /// Calls visit(leaf, limit), which returns true to end and may lower `limit`, for each leaf whose box the ray
-/// may meet before it. kNearestFirst: nearer boxes first, for the closest hit; else those first
+/// may hit before it. kNearestFirst: nearer boxes first, for the closest hit; else those first
 /// that are fullest of items, which the builder has put into the lanes 0, 7, 6, ... of a node.
 template <bool kNearestFirst, class Nodes, class VisitLeaf>
 [[gnu::always_inline]] inline void traverse(const BvhNode* nodes, Leaves leaves, const SlabRay& ray,
@@ -122,7 +122,7 @@ template <bool kNearestFirst, class Nodes, class VisitLeaf>
   const Float4 shifts = ray.origin * ray.inverse;
   const Float8 inverse[3] = {spread<0>(ray.inverse), spread<1>(ray.inverse), spread<2>(ray.inverse)};
   const Float8 shift[3] = {spread<0>(shifts), spread<1>(shifts), spread<2>(shifts)};
-  // Where the planes that the ray meets first lie in a node, in floats. (The signs of the inverse are the
+  // Where the planes that the ray hits first lie in a node, in floats. (The signs of the inverse are the
   // same, but a division later.)
   const unsigned backward = signs(ray.direction);
   const std::size_t side[3] = {backward << 3 & 8, 16 + (backward << 2 & 8), 32 + (backward << 1 & 8)};

@@ -344,7 +344,7 @@ std::span<const Flag> flags() {
            "render the scenes of the folder, with the options given, instead of reading pictures",
            [](Arguments& a, std::string_view) { a.renderScenes = true; }},
       Flag{"scene-limit", 0, Takes::value, "SECONDS", "", kGrade, false,
-           "a scene that takes longer to render is given up, and the next one comes; default 0, no limit",
+           "a scene that takes longer to render is stopped, and the next one begins; default 0, no limit",
            [](Arguments& a, std::string_view value) { a.sceneLimit = numberOf("scene-limit", value, 0); }},
       Flag{"pixel", 0, Takes::value, "X,Y", "", kExplain, true,
            "the pixel to explain; 0,0 is at the top left",

@@ -2,7 +2,7 @@
 // and the generic tests loop over the table that shape_table.cpp makes of the list.
 //
 // Only that file and render/world/world_queries.cpp include this one: everyone else sees a Shape (shape.h) or
-// what rays meet of it (traced.h), whatever its type, and is not compiled again when a shape changes.
+// what rays hit of it (traced.h), whatever its type, and is not compiled again when a shape changes.
 //
 // Every shape but Mesh answers, in its own space:
 //   solid()             does it enclose space? (an open sheet is seen from both sides)
@@ -13,7 +13,7 @@
 //   surface(ray, c)     the point, put back on the surface, with error bounds, normal and uv
 //
 // A shape may add
-//   convex()            a ray that leaves it on the side of its normal does not meet it again
+//   convex()            a ray that leaves it on the side of its normal does not hit it again
 //
 // A shape of several materials adds
 //   material(part, own)        the MaterialMix of a crossing; `own` is that of the whole
@@ -22,7 +22,7 @@
 //   inside(part, own)          that of the inside
 //
 // A shape that has to be computed before it is traced (coefficients, hierarchies, children) has instead
-//   prepared()          what rays meet in its place, or a shared handle to it: something with the four above.
+//   prepared()          what rays hit in its place, or a shared handle to it: something with the four above.
 // prepare() asks for it once. Where that takes long, it adds
 //   checked()           its ShapeFacts, found without; throws what prepared() throws
 // What is costly to find everywhere may take the wanted part of the line:

@@ -41,7 +41,7 @@ std::vector<Choice> choicesOfRow(const QualityRow& row) {
           choice("integrator", "path")};
 }
 
-/// It is a lamp, which is too small for paths to meet at random, or rays do not see it.
+/// It is a lamp, which is too small for paths to hit at random, or rays do not see it.
 bool isMissedByPaths(const Light& light) {
   return match(light, [](const auto& l) {
     if constexpr (requires { l.quadratic; })

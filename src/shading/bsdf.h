@@ -1,6 +1,6 @@
 // The scattering of light at a surface point: the material models under the conventions of a render.
 //
-// A material says what a person wrote; its Bsdf is what light meets. Each model has both, in one header of
+// A material says what a person wrote; its Bsdf is what light hits. Each model has both, in one header of
 // shading/materials/. The contract of all functions here is in shading/scattering.h.
 #pragma once
 
@@ -43,7 +43,7 @@ struct BsdfRowOf {
   static const BsdfRow kRow;
 };
 
-/// The Bsdf of any model, held in place: rays meet very many.
+/// The Bsdf of any model, held in place: rays hit very many.
 class Bsdf {
  public:
   /// The largest of a model that fits.

@@ -12,7 +12,7 @@ struct Differentials {
   Vec3 directionX, directionY;  ///< derivatives of its unit direction
 };
 
-/// The differentials of a ray of unit `direction` where it meets a plane of unit `normal` at distance t (10,
+/// The differentials of a ray of unit `direction` where it hits a plane of unit `normal` at distance t (10,
 /// 12).
 inline Differentials arrived(const Differentials& d, const Vec3& direction, Real t, const Vec3& normal) {
   const Real against = dot(direction, normal);

@@ -41,7 +41,7 @@ class EnvironmentMap {
   explicit EnvironmentMap(std::array<Picture, 6> faces);
 
   EnvironmentKind kind() const { return kind_; }
-  /// The spot that a direction of any length but 0 meets.
+  /// The spot that a direction of any length but 0 hits.
   Spot spot(const Vec3& direction) const;
   /// The direction of a place on a cube.
   static Spot cubeSpot(const Vec3& direction);

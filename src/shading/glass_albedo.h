@@ -1,5 +1,5 @@
 // The albedo of rough glass for light that hits one facet, tabulated, and what becomes of the
-// rest, which meets several (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH
+// rest, which hits several (Kulla and Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH
 // 2017 course). Cosines are those to the normal that points out of the body: below 0 they are inside.
 #pragma once
 
@@ -13,7 +13,7 @@ Real glassAlbedo(Distribution kind, Real cosine, Real width, Real eta);
 /// The mean over all directions, weighed by the cosine.
 Real meanGlassAlbedo(Distribution kind, Real width, Real eta);
 
-/// The light that meets several facets of glass: it continues to both sides, whatever side it came from.
+/// The light that hits several facets of glass: it continues to both sides, whatever side it came from.
 class GlassLoss {
  public:
   GlassLoss() = default;

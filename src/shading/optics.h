@@ -12,7 +12,7 @@ inline Vec3 mirrored(const Vec3& direction, const Vec3& normal) {
   return direction - normal * (2 * dot(direction, normal));
 }
 
-/// Snell's law for a unit `direction` that meets a surface whose unit `normal` points against it.
+/// Snell's law for a unit `direction` that hits a surface whose unit `normal` points against it.
 /// `ratio` = index before / index behind. Nothing under total internal reflection (Glassner, section 4.2).
 inline std::optional<Vec3> refracted(const Vec3& direction, const Vec3& normal, Real ratio) {
   const Real cosIn = -dot(direction, normal);

@@ -10,7 +10,7 @@
 namespace trace {
 namespace {
 
-/// `shares`: of the place that was met. Where none was, as inside a medium, the object's own material counts.
+/// `shares`: of the place that was hit. Where none was, as inside a medium, the object's own material counts.
 NamedBody namedBody(std::uint32_t index, std::vector<MaterialShare> shares, const Scene& scene) {
   NamedBody body;
   body.name = fillingName(scene, index);

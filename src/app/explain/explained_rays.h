@@ -46,7 +46,7 @@ struct ExplainedRay {
   RaySegment segment;
   std::string sentence;                        ///< why it ends
   std::string light;                           ///< the name of the light that it asks; "" for other rays
-  std::optional<NamedBody> hit;                ///< what it met
+  std::optional<NamedBody> hit;                ///< what it hit
   std::vector<std::string> ignored;            ///< a sentence for each of RayNode::ignored
   std::vector<NamedBody> filters;              ///< as RayNode::filters
   std::vector<std::optional<NamedBody>> ends;  ///< as RayNode::ends, where they name an object

@@ -23,7 +23,7 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
 struct RayPair {
   int a = -1, b = -1;  ///< nodes; -1 where the tree has none there
   int depth = 0;
-  bool differs = false;  ///< in what it met or brought back, or one is missing
+  bool differs = false;  ///< in what it hit or brought back, or one is missing
   std::string what;      ///< in words; "" where nothing differs
 };
 std::vector<RayPair> difference(const RayTree& a, const Scene& sceneA, const RayTree& b, const Scene& sceneB);

@@ -73,7 +73,7 @@ void cameraLooksAway(const LintScene& s, Findings& findings) {
   Box3 all;
   for (const Object& object : s.scene.objects) {
     const Box3 box = boxAround(object);
-    if (box.empty() || box.unbounded()) continue;  // what has no end is met if it is in sight
+    if (box.empty() || box.unbounded()) continue;  // what has no end is hit if it is in sight
     if (!isOutside(camera, box)) return;           // it may be small
     all.extend(box);
   }

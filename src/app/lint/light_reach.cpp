@@ -1,7 +1,7 @@
 // The check of lights that reach nothing.
 //
 // Places are asked at which paths from the camera arrive, as the integrator would follow them, and those that
-// a light shines on first, where the camera sees them or on objects that no path has met: a light may be
+// a light shines on first, where the camera sees them or on objects that no path has hit: a light may be
 // there for what is not in the picture. Each samples the lights of which nothing has come so far, as an
 // integrator asks them: by links, cones, falloff, the material and the tracer's own shadow rays. So a light
 // is reported only if it gives exactly nothing at many places.
@@ -101,7 +101,7 @@ class LightSearch {
     });
   }
 
-  /// A path from the camera: all that its ray meets, and one ray on from there.
+  /// A path from the camera: all that its ray hits, and one ray on from there.
   void follow(Ray ray, std::optional<Hit> hit, Interfaces inside, const Sampler& sampler) {
     for (int depth = 0; hit && depth <= std::min(settings_.depth, kDeepest) && !silent_.empty(); ++depth) {
       seen_[hit->object] = true;
@@ -244,7 +244,7 @@ class LightSearch {
   bool photons_;  ///< mirrors and glass have caustics
   bool bounces_;  ///< everything does
   int asked_ = 0;
-  std::vector<bool> seen_;  ///< objects that a path from the camera has met
+  std::vector<bool> seen_;  ///< objects that a path from the camera has hit
   std::vector<SilentLight> silent_;
 };
 

@@ -14,7 +14,7 @@ namespace trace {
 std::vector<std::uint32_t> objectsAround(const World& world, const Vec3& point);
 
 /// The object closes off the environment the point: the one crossing that a ray from there has with it is the
-/// last with anything; so in half of many directions or more, and in the others it is not met. Spheres and
+/// last with anything; so in half of many directions or more, and in the others it is not hit. Spheres and
 /// boxes that enclose the point do, and so do domes, and infinite planes.
 bool isShell(const World& world, std::uint32_t object, const Vec3& point);
 

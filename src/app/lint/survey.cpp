@@ -185,7 +185,7 @@ class Surveyor {
     return false;
   }
 
-  /// Another surface at the place that the camera ray met, with the same plane.
+  /// Another surface at the place that the camera ray hit, with the same plane.
   void coplanar(const RayNode& node) {
     const Hit& hit = *node.hit;
     const Real cosine = std::abs(dot(hit.surface.normal, node.ray.direction));

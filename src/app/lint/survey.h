@@ -15,10 +15,10 @@
 
 namespace trace {
 
-/// A sparse picture of the scene, and what its rays met.
+/// A sparse picture of the scene, and what its rays hit.
 struct Survey {
   struct Seen {
-    int places = 0;                          ///< where a ray that counts in the picture met the object
+    int places = 0;                          ///< where a ray that counts in the picture hit the object
     int lit = 0;                             ///< number of those from which anything but black returns
     int direct = 0;                          ///< number of those with direct light
     int couldBeLit = 0;                      ///< number of those whose material scatters light
@@ -43,8 +43,8 @@ struct Survey {
   std::vector<Seen> objects;  ///< like Scene::objects
   std::vector<Lamp> lights;   ///< like Scene::lights
   int samples = 0;
-  int met = 0;     ///< samples that met something
-  int cutOff = 0;  ///< samples that met something where the camera does not see
+  int met = 0;     ///< samples that hit something
+  int cutOff = 0;  ///< samples that hit something where the camera does not see
   Picture picture;
   /// Pixels of which a refracted ray that counts was not sent for the depth limit.
   std::vector<std::size_t> cutShort;

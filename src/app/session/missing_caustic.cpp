@@ -8,7 +8,7 @@
 namespace trace {
 namespace {
 
-/// Paths may meet the light: it has a size, and they see it.
+/// Paths may hit the light: it has a size, and they see it.
 bool isMet(const Light& light) {
   return match(light, [](const auto& l) {
     if constexpr (requires { l.visible; }) return l.visible && l.hasSize();

@@ -17,11 +17,11 @@ struct MissingCaustic {
   std::string why, hint;
 };
 
-/// The object throws much of the light that it meets on others, gathered: it mirrors or refracts.
+/// The object throws much of the light that it hits on others, gathered: it mirrors or refracts.
 bool gathersLight(const World& world, std::uint32_t object, bool byGlassAlone = false);
 
 /// The first light and object whose caustic will be missing, of those pairs of which `counts(light, object)`
-/// is true. Paths never meet a light without a size, or one that they do not see, so they bring nothing of
+/// is true. Paths never hit a light without a size, or one that they do not see, so they bring nothing of
 /// its light by mirrors and glass. What glass gathers is missing wherever shadow rays run straight through
 /// it.
 std::optional<MissingCaustic> missingCaustic(

@@ -39,7 +39,7 @@ bool hasSun(const Scene& scene) {
                      [](const LightSource& l) { return std::holds_alternative<DirectionalLight>(l.light); });
 }
 
-/// Some rays of the camera meet nothing, or some that continue from where they end, in any direction: in a
+/// Some rays of the camera hit nothing, or some that continue from where they end, in any direction: in a
 /// room with a window the air outside is lit, too.
 bool seesBeyond(const World& world) {
   constexpr int kAcross = 16, kPlaces = 6;

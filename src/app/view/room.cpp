@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kRoomDirections = 400;
 constexpr int kLeastMet =
-    kRoomDirections * 3 / 4;  // that meet something in a room; the rest may be doors and windows
+    kRoomDirections * 3 / 4;  // that hit something in a room; the rest may be doors and windows
 
 /// Spread evenly over the sphere: the golden angle apart, in bands of equal area (Gonzalez, "Measurement of
 /// areas on a sphere using Fibonacci and latitude-longitude lattices", 2010).

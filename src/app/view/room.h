@@ -11,7 +11,7 @@
 
 namespace trace {
 
-/// Objects that lie outermost around `inside`, ascending: those first met by rays that come in from all
+/// Objects that lie outermost around `inside`, ascending: those first hit by rays that come in from all
 /// directions from beyond the frame. None where fewer than three quarters of the rays hit anything, which is
 /// no room.
 std::vector<std::uint32_t> wallsAround(const World& world, const Vec3& inside, const Box3& frame);

@@ -60,7 +60,7 @@ struct Mesh {
   bool operator==(const Mesh& other) const { return data == other.data || *data == *other.data; }
 };
 
-/// The corners of a triangle, as a ray meets them.
+/// The corners of a triangle, as a ray hits them.
 Corners corners(const MeshData& mesh, std::uint32_t index);
 
 SurfacePoint surface(const MeshData& mesh, std::uint32_t index, const TriangleHit& hit);

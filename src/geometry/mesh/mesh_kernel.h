@@ -17,7 +17,7 @@ inline Vec3x4 cross(const Vec3x4& a, const Vec3x4& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Where a ray meets the triangles of a block, lane by lane: t, and weights of the corners times `along`,
+/// Where a ray hits the triangles of a block, lane by lane: t, and weights of the corners times `along`,
 /// which is negative for a triangle that faces the ray. Only lanes whose bit is set in `met` mean something.
 struct alignas(32) BlockHits {
   double t[4], along[4], w1[4], minusW2[4];
@@ -82,7 +82,7 @@ class BlockTest {
 };
 
 /// Calls meet(block, hits), which returns true to end and may lower q.best.hit.t, for blocks that the ray
-/// meets.
+/// hits.
 template <bool kNearestFirst, class Nodes, class Meet>
 [[gnu::always_inline]] inline void blocksMet(MeshQuery& q, Nodes& nodes, const Meet& meet) {
   const double origin[3] = {q.ray.origin.x, q.ray.origin.y, q.ray.origin.z},

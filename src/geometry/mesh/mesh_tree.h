@@ -1,4 +1,4 @@
-// A mesh as rays meet it: its triangles in the leaves of a hierarchy, four to a block.
+// A mesh as rays hit it: its triangles in the leaves of a hierarchy, four to a block.
 //
 // A block's four lanes are tested at once, in double; where a weight is so near zero that rounding might have
 // given it the wrong sign, the exact test decides (triangle.h). So the hit is the one that testing every
@@ -17,7 +17,7 @@
 
 namespace trace {
 
-/// The corners of four triangles: corner, axis, lane. Unused lanes hold NaN and are never met.
+/// The corners of four triangles: corner, axis, lane. Unused lanes hold NaN and are never hit.
 struct alignas(16) TriangleBlock {
   float corner[3][3][4];
 
@@ -95,7 +95,7 @@ class MeshTree {
   bool closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCounts<Nodes> counts) const;
 
   /// Calls visit(MeshHit), which returns true to end the query, for every hit at 0 < t < tMost, in any order.
-  /// A triangle that the hierarchy holds in parts may be met more than once.
+  /// A triangle that the hierarchy holds in parts may be hit more than once.
   template <class Visit, class Nodes>
   void crossings(const Ray& ray, Real tMost, Visit&& visit, MeshCounts<Nodes> counts) const;
 

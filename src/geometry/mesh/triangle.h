@@ -30,7 +30,7 @@ inline Real differenceOfProducts(Real a, Real d, Real b, Real c) {
 }
 
 /// On which side of the edge p -> q (in the plane across the ray) the ray passes; exactly the negative for
-/// q -> p. A ray that meets the edge exactly is decided as if it were moved by (e, e^2), e -> 0 (Edelsbrunner
+/// q -> p. A ray that hits the edge exactly is decided as if it were moved by (e, e^2), e -> 0 (Edelsbrunner
 /// and Muecke, Simulation of Simplicity, 1990). So the projected triangles tile the plane without gap or
 /// overlap, at their vertices too.
 inline Real edgeSide(const Vec2& p, const Vec2& q) {
@@ -41,7 +41,7 @@ inline Real edgeSide(const Vec2& p, const Vec2& q) {
   return lean > 0 ? kTiny : lean < 0 ? -kTiny : 0;
 }
 
-/// Where a ray meets the plane of a triangle (Moeller and Trumbore, JGT 2(1), 1997), if it does at
+/// Where a ray hits the plane of a triangle (Moeller and Trumbore, JGT 2(1), 1997), if it does at
 /// 0 < t <= tMost; not if it runs in the plane, as rounding goes. The distance has the right sign for rays
 /// that leave the surface.
 inline bool locate(const Ray& ray, const Corners& v, Real tMost, TriangleHit& hit) {
@@ -88,7 +88,7 @@ struct TriangleRay {
     return e0 + e1 + e2 != 0;
   }
 
-  /// Where the ray meets the triangle, if it does at 0 < t <= tMost.
+  /// Where the ray hits the triangle, if it does at 0 < t <= tMost.
   bool intersect(const Corners& v, Real tMost, TriangleHit& hit) const {
     return locate({origin, direction}, v, tMost, hit) && passes(v);
   }

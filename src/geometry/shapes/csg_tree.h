@@ -1,6 +1,6 @@
 // The traced form of a union, intersection, difference or clipped object.
 //
-// A ray's line meets every operand; the crossings, in order, turn the operands' insides on and off, and where
+// A ray's line hits every operand; the crossings, in order, turn the operands' insides on and off, and where
 // the inside of the whole changes there is one crossing of the whole. Operands that are solids of solids are
 // asked in turn. A hierarchy over the operands' boxes leaves out those that the line misses.
 //

@@ -1,6 +1,6 @@
 // Height fields: z over a grid of x and y, from a picture or a formula, as bilinear or bicubic patches and
 // solid down to a floor. Traced as such: a ray goes from block to block of a pyramid of least and greatest
-// heights, and in each cell that is left meets the patch itself.
+// heights, and in each cell that is left hits the patch itself.
 #pragma once
 
 #include <memory>

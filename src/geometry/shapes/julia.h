@@ -100,7 +100,7 @@ class TracedJulia {
   /// Some steps of the search, in sizes of kReach: what is finer is not told apart.
   Real detail() const { return power() ? 16 * kPowerStep : 0x1p-11; }
   /// From here on the numbers of neighbours in the search have nothing in common: what follows is dust, of
-  /// which each ray would meet other grains (solve/escape_search.h). The number before counts as the last.
+  /// which each ray would hit other grains (solve/escape_search.h). The number before counts as the last.
   Real mostGrowth() const { return kEscaped / (kReach * detail()); }
   bool isBlurred(Real growth, int i) const { return i >= JuliaSet::kSurely && growth > mostGrowth(); }
   Vec2 trapUv(const Vec3& p) const;

@@ -76,7 +76,7 @@ struct Menger {
     const Ray& ray;
     const Range& range;
     int count;          ///< count of finest cells along an axis
-    Crossing from, to;  ///< the solid stretch met last
+    Crossing from, to;  ///< the solid stretch hit last
     bool open;          ///< ... is not visited yet
 
     /// Where the ray crosses the plane of that number, and what face a solid would have there.

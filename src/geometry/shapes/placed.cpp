@@ -8,7 +8,7 @@ namespace trace {
 namespace {
 
 /// The line of the ray in both directions from its origin. A triangle that the mesh's hierarchy holds in
-/// parts is met once.
+/// parts is hit once.
 void meshCrossings(const MeshTree& mesh, const Ray& ray, const VisitCrossing& visit) {
   NodeCount nodes;
   std::uint64_t triangles = 0;

@@ -1,4 +1,4 @@
-// Surfaces of second degree: the general one by its ten coefficients, and the named ones by their measures.
+// Quadrics: the general one by its ten coefficients, and the named ones by their measures.
 // All are traced as a ClippedQuadric.
 #pragma once
 

@@ -3,8 +3,8 @@
 // The profile stands across the path and turns no more than the path makes it (double reflection: Wang,
 // Juttler, Zheng and Liu, Computation of Rotation Minimizing Frames, 2008). Between stations, so many to an
 // arc that the path bends little from one to the next, its two directions are cubics in the path's parameter
-// (Hermite). With them, the surface is a bicubic patch for each arc of the profile, and is met as
-// bezier_patches.h meets one: no triangles.
+// (Hermite). With them, the surface is a bicubic patch for each arc of the profile, and is hit as
+// bezier_patches.h hits one: no triangles.
 #pragma once
 
 #include <array>

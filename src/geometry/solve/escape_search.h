@@ -86,7 +86,7 @@ class EscapeSearch {
     return growth * step_.stretch(w, r) + step_.unit() * step_.shareOfPlace();
   }
   /// The orbits of neighbours in the search have nothing in common any more. What follows is dust: each ray
-  /// would meet other grains of it, and the place that one finds would lie in the shadow of others.
+  /// would hit other grains of it, and the place that one finds would lie in the shadow of others.
   /// The first numbers always count: their turns are few, and hold no dust.
   bool isBlurred(Real growth, int i) const {
     return i >= step_.surely() && growth * step_.half() * kDetail > step_.radius();

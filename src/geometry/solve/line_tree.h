@@ -1,4 +1,4 @@
-// Which of many parts a ray's whole line may meet, also behind its origin: what parity, unions and sums need.
+// Which of many parts a ray's whole line may hit, also behind its origin: what parity, unions and sums need.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ class LineTree {
     bvh_ = Bvh(boxes);
   }
 
-  /// Calls visit(number) for each box that the line of the ray may meet.
+  /// Calls visit(number) for each box that the line of the ray may hit.
   template <class Visit>
   void query(const Ray& ray, Visit&& visit) const {
     for (const Alone& part : alone_) {

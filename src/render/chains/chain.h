@@ -19,7 +19,7 @@ class Chains {
   Chains(std::span<const Moment> moments, const Settings& settings, const Size& size, const Tile& area);
 
   /// How bright the picture is by one sample of many, evenly spread: a path from the camera with all that it
-  /// meets and asks for, and a path from anywhere. Its mean is that of light(), and it differs far less.
+  /// hits and asks for, and a path from anywhere. Its mean is that of light(), and it differs far less.
   Real brightness(PixelTracer& tracer, std::uint64_t seed, std::uint32_t sample) const;
   /// How bright the picture is by the path that is made from nothing with these numbers: over its density.
   Real light(PixelTracer& tracer, std::uint64_t seed) const;

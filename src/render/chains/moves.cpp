@@ -138,7 +138,7 @@ struct Moves::Walk {
     RayKind leaves = RayKind::bounce;  ///< how the path continues from there toward the light
   };
   std::vector<Step> steps{};
-  std::unique_ptr<Vertex> at{};        ///< as the walk met the last one
+  std::unique_ptr<Vertex> at{};        ///< as the walk hit the last one
   RayKind fromKept = RayKind::bounce;  ///< how the path continues from the first place that is kept
 };
 
@@ -288,7 +288,7 @@ Path Moves::anywhere() {
   return path;
 }
 
-/// With which fromCamera() finds the path: its walk meets the emitter, or asks for it.
+/// With which fromCamera() finds the path: its walk hits the emitter, or asks for it.
 Real Moves::cameraDensity(const Path& path) const {
   const std::size_t end = path.last();
   Real eye = 1;

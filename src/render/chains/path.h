@@ -14,7 +14,7 @@
 // to the surface (Veach 1997, sections 8.2 and 11.4). Places of mirrors and glass lie on no area of their
 // own: their part in a density is the chance of the choice of that ray.
 //
-// Places are those that rays from the camera meet. Rays from lights only propose them.
+// Places are those that rays from the camera hit. Rays from lights only propose them.
 #pragma once
 
 #include <memory>
@@ -80,7 +80,7 @@ struct Node {
   Real kappa = 1;   ///< kappa of mirrors and glass: light's part of it over the part of what the camera sees
   Real edge = 0;    ///< G of the way to the next place; 0 from mirrors and glass
   // Worked out where somebody asks.
-  std::shared_ptr<const Vertex> turned{};  ///< the place as a path from the light meets it
+  std::shared_ptr<const Vertex> turned{};  ///< the place as a path from the light hits it
   std::optional<Real> light{};             ///< density of continuing toward the camera
 };
 
@@ -148,7 +148,7 @@ class Paths {
   /// Evaluates one vertex, behind which the path has another.
   bool weighPlace(Path& path, std::size_t i) const;
 
-  /// The place as a path from the light meets it; none where that cannot be.
+  /// The place as a path from the light hits it; none where that cannot be.
   const Vertex* turned(Path& path, std::size_t i) const;
   /// The density of continuing from there toward the camera.
   Real lightDensity(Path& path, std::size_t i) const;

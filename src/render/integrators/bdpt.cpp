@@ -82,7 +82,7 @@ Color Bidirectional::radiance(Tracer& tracer, Sampler sampler, const CameraRay& 
   return along(tracer, camera.ray, camera.hit, path, camera.inside, sampler, sample);
 }
 
-/// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there. In
+/// The radiance along the last ray that was cast, which ends at `hit`; `inside` is what it was in there. In
 /// media it may continue ten thousand times: no call for each.
 Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
                            const Interfaces& inside, const Sampler& sampler, const Sample& sample) const {
@@ -131,7 +131,7 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
     if (media) coverWithMedia(sum, *media);
     sum.draw(path.ink);
   };
-  /// s = 0: the emitter there was met with the densities of being asked for and of having started there.
+  /// s = 0: the emitter there was hit with the densities of being asked for and of having started there.
   const auto met = [&](Term::Kind kind, const Color& light, Real asked, Real started) {
     const Partial& p = path.partial;
     const Real others =

@@ -4,7 +4,7 @@
 //   L = sum over s and t of w(s, t) * (s places from the light's end, t from the camera's, and the way
 //   between)
 //
-//   s = 0    the path from the camera met something that shines
+//   s = 0    the path from the camera hit something that shines
 //   s = 1    a place of it samples lights and lamps, as a path tracer does
 //   t = 1    a place of the path from the light is seen by the camera: it lands anywhere in the picture
 //   else     a place of one and a place of the other see each other

@@ -19,7 +19,7 @@ struct Bidirectional::Flight {
   bool straight = true;
   Real way = 0;
   Color through{1};
-  bool open = true;  ///< it has met only what shadow rays pass, too: no vertices of the path, as if holes
+  bool open = true;  ///< it has hit only what shadow rays pass, too: no vertices of the path, as if holes
   Color power{1}, response{1};
   Real kept = 1;  ///< fraction of its power, where it was scattered last
   Partial partial{};

@@ -57,7 +57,7 @@ struct Bidirectional::Path {
   const Differentials* differentials = nullptr;  ///< differentials of the ray, if footprints are needed
   Real ink = 0;                                  ///< how much of it an outline covers
   bool fromMedium = false;                       ///< it was scattered in a medium last
-  bool asked = false;       ///< it was scattered, and has met since then only panes that shadow rays pass
+  bool asked = false;       ///< it was scattered, and has hit since then only panes that shadow rays pass
   bool fromLights = false;  ///< paths from lights bring what mirrors and glass show it
   bool within = false;      ///< it runs in a body, from where light comes out
 

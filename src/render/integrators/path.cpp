@@ -77,7 +77,7 @@ Color PathTracer::radiance(Tracer& tracer, Sampler sampler, const CameraRay& cam
   return along(tracer, camera.ray, camera.hit, path, camera.inside, sampler);
 }
 
-/// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there. In
+/// The radiance along the last ray that was cast, which ends at `hit`; `inside` is what it was in there. In
 /// media it may continue ten thousand times: no call for each.
 Color PathTracer::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
                         const Interfaces& inside, const Sampler& sampler) const {

@@ -3,7 +3,7 @@
 //   L = Le + sum over lights + lamp + weight * L(one ray, chosen at random)
 //
 // Lights of the scene are asked one by one, as Whitted's tracer does. One place on the emissive objects is
-// chosen at random; a bounced ray may also meet them, and the two are weighed by the power heuristic (Veach
+// chosen at random; a bounced ray may also hit them, and the two are weighed by the power heuristic (Veach
 // 1997, section 9.2.4). One of a surface's mirrored, refracted and scattered rays is followed.
 // A ray that was bounced as often as the depth allows sends one more, which sees only emitters: so the
 // last surface is lit in both ways, too. The ambient light is left out: what it stands for is traced.

@@ -57,7 +57,7 @@ void Whitted::prepare(const World& world, const Settings& settings, Job& job) {
          : addFog(sum, tracer, ray, t, inside, world.ambient(), lamps, sampler.branch(Branch::whittedFog));
 }
 
-/// The radiance along the ray, which is the one cast last and met `hit`; `inside` is what it was in there.
+/// The radiance along the last ray that was cast, which ends at `hit`; `inside` is what it was in there.
 Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
                      const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);

@@ -37,17 +37,15 @@ int mostPlaces(const World& world, std::uint32_t object) {
 /// The half axes of an ellipsoid around a shape are so many times those of its bounds.
 Real roomAround(std::string_view shape) {
   if (shape == Sphere::kKeyword || shape == Ellipsoid::kKeyword) return 1;
-  const bool corners = shape == Cube::kKeyword || shape == RoundedBox::kKeyword ||
-                       shape == Superellipsoid::kKeyword;
+  const bool corners =
+      shape == Cube::kKeyword || shape == RoundedBox::kKeyword || shape == Superellipsoid::kKeyword;
   return std::sqrt(corners ? 3.0 : 2.0);  // the others are round about their axis z
 }
 
 Real coneCosine(Real away2) { return std::sqrt(std::max(0.0, 1 - 1 / away2)); }
 
 /// The solid angle of the ball of radius 1 from so far away; from inside, all of it.
-Real ballAngle(Real away2) {
-  return away2 > 1 ? 2 * kPi / (away2 * (1 + coneCosine(away2))) : kWholeSphere;
-}
+Real ballAngle(Real away2) { return away2 > 1 ? 2 * kPi / (away2 * (1 + coneCosine(away2))) : kWholeSphere; }
 
 }  // namespace
 
@@ -66,8 +64,7 @@ std::optional<BodyLamp> BodyLamp::of(const World& world, std::uint32_t object) {
   const Real least = kFlat * std::max({half.x, half.y, half.z});
   const Real room = roomAround(world.shapeOf(object)) * kMore;
   for (int axis = 0; axis < 3; ++axis) half[axis] = std::max(half[axis], least) * room;
-  body.toWorld_ =
-      world.worldFromObject(object) * Affine::translation(own.center()) * Affine::scaling(half);
+  body.toWorld_ = world.worldFromObject(object) * Affine::translation(own.center()) * Affine::scaling(half);
   body.volume_ = std::abs(determinant(body.toWorld_));
   if (!(body.radius_ > 0 && body.radius_ < kInfinity && body.volume_ > 0 && body.volume_ < kInfinity))
     return {};
@@ -77,9 +74,9 @@ std::optional<BodyLamp> BodyLamp::of(const World& world, std::uint32_t object) {
   std::size_t places = 0;
   for (std::uint32_t n = 0; n < kLines; ++n)
     for (int k = 0; k < body.crossings_; ++k)
-      places += body.place(world, sobolPoint(n, 0), sobolPointBeside(n, 0),
-                           (k + 0.5) / body.crossings_).has_value();
-  // A line that crosses an open shape enters one of its two sides.
+      places += body.place(world, sobolPoint(n, 0), sobolPointBeside(n, 0), (k + 0.5) / body.crossings_)
+                    .has_value();
+  // A line crosses only one of the two sides of an open shape.
   body.area_ = kWholeSphere * body.radius_ * body.radius_ * static_cast<Real>(places) / kLines;
   if (!body.closed_) body.area_ /= 2;
   return body.area_ > 0 ? std::optional(body) : std::nullopt;

@@ -1,6 +1,6 @@
-// An emissive body of a shape that has no formula of its own. Directions to it are chosen toward the ellipsoid
-// around its bounds. Places on it are those where random lines through a ball around it enter: such lines cross
-// a surface evenly, whatever its shape (Santalo, Integral Geometry and Geometric Probability, 1976).
+// An emissive object whose shape has no sampling formula of its own. Directions to it are sampled toward the
+// ellipsoid around its bounds. Points on it are sampled by random lines through the sphere around it: these
+// cross a surface uniformly, whatever its shape (Santalo, Integral Geometry and Geometric Probability, 1976).
 #pragma once
 
 #include <cstdint>
@@ -12,35 +12,36 @@ namespace trace {
 
 class BodyLamp {
  public:
-  /// Nothing for an object whose shape is not known to be crossed so few times by a line: meshes, planes and
-  /// most solids that are not convex.
+  /// Nothing for a shape that a line may cross many times: meshes, planes and most solids that are not
+  /// convex.
   static std::optional<BodyLamp> of(const World& world, std::uint32_t object);
 
-  /// A direction in which it may be met.
+  /// A direction in which a ray may hit it.
   struct Aim {
     Vec3 direction;  ///< unit
     Real density;    ///< per solid angle
-    Real farthest;   ///< it ends before that distance
+    Real farthest;   ///< the object ends before that distance
   };
-  /// By two numbers from 0 up to 1.
+  /// Samples a direction by two numbers from 0 up to 1.
   Aim aim(const Vec3& from, const Vec2& u) const;
-  /// The density with which aim() gives that direction, in which the body lies.
+  /// The density, per solid angle, with which aim() samples a direction toward the object.
   Real density(const Vec3& from, const Vec3& direction) const;
 
-  /// A place on its surface.
+  /// A point on its surface.
   struct Place {
-    Vec3 point, normal;  ///< unit, to the side on which it was chosen
+    Vec3 point, normal;  ///< unit; the side on which the point was sampled
   };
-  /// By five numbers from 0 up to 1: of a line, and which of its crossings. Nothing where the line has fewer.
+  /// Samples a point by five numbers from 0 up to 1: four choose a line, the last one of its crossings.
+  /// Nothing if the line has fewer crossings.
   std::optional<Place> place(const World& world, const Vec2& direction, const Vec2& disk, Real which) const;
-  /// The density with which place() gives a place, per area and side.
+  /// The density with which place() samples a point, per area and side.
   Real perArea() const;
 
   const Vec3& middle() const { return middle_; }
   Real radius() const { return radius_; }  ///< radius of the ball around it
-  bool closed() const { return closed_; }  ///< only its outside shines
-  Real area() const { return area_; }      ///< about
-  /// Where the ray meets it first, whatever lies before.
+  bool closed() const { return closed_; }  ///< only its outside emits
+  Real area() const { return area_; }      ///< approximate
+  /// The first hit of the ray with it, regardless of objects in front.
   std::optional<Found> meets(const World& world, const Ray& ray, Statistics& statistics) const;
 
  private:
@@ -51,7 +52,7 @@ class BodyLamp {
   Real volume_ = 0;             ///< determinant of toWorld_
   Vec3 middle_;
   Real radius_ = 0, area_ = 0;
-  int crossings_ = 0;  ///< the most places that a line has
+  int crossings_ = 0;  ///< the largest number of crossings of a line
   bool closed_ = true;
 };
 

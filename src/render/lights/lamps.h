@@ -1,10 +1,10 @@
-// Emitters for a path tracer, objects and the environment: it chooses
-// places at random.
+// Emitters for a path tracer, objects and the environment: it samples points on them at random.
 //
-// Known are objects whose own material is emissive: meshes, squares, spheres and other bodies that a line
-// crosses once or twice (body_lamp.h). Other emissive objects are only met at random. How often one is chosen follows from its area and its colour, and where
-// they have many parts also from the distance (render/world/light_tree.h). The environment is chosen half of
-// the time, if it is brighter here than there or if portals show where it is seen.
+// An object is sampled as a light if its own material is emissive and it is a mesh, a square, a sphere, or
+// another solid that a line crosses once or twice (body_lamp.h). Rays hit other emissive objects only at
+// random. The probability of an object follows from its area and its colour, and where they have many parts
+// also from the distance (render/world/light_tree.h). The environment is chosen half of the time, if its
+// brightness varies or if portals show where it is visible.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ namespace trace {
 class Lamps {
  public:
   Lamps() = default;
-  /// Where no ray meets lamps at random, the environment is one as soon as it is not the same all around.
+  /// Where no ray hits lamps at random, the environment is one as soon as it is not the same all around.
   /// Places are then spread over areas, so that Whitted's pictures keep their bits.
   Lamps(const World& world, int threads, bool onlyHere = false);
 
@@ -40,12 +40,12 @@ class Lamps {
     std::uint64_t part;    ///< the triangle of a mesh
     Vec3 toLight;          ///< unit
     Real density;          ///< density of that direction, per solid angle
-    Real distance;         ///< infinite to the environment; at least so far, until look() or sent() met a body
+    Real distance;  ///< infinite to the environment; at least so far, until look() or sent() hit a body
   };
   /// By three numbers from 0 up to 1. Nothing where the part that was chosen is not seen from there.
   std::optional<Place> choose(const Vec3& from, Real which, const Vec2& u) const;
-  /// The density with which choose() gives the direction in which a ray from `from` met `hit`, the place that
-  /// it met included; 0 for what is no lamp.
+  /// The density with which choose() gives the direction in which a ray from `from` ends at `hit`, the place
+  /// that it hit included; 0 for what is no lamp.
   Real density(const Vec3& from, const Hit& hit) const;
   /// The density for a ray that hit nothing.
   Real density(const Ray& ray) const { return choosesSky() ? skyShare() * skyDensity(ray) : 0; }
@@ -79,7 +79,7 @@ class Lamps {
   /// With which it gives that unit direction.
   Real skyStartDensity(const Vec3& toLight) const;
 
-  /// Whether the ray to the place met it: a Hit, or what was Found.
+  /// Whether the ray to the place hit it: a Hit, or what was Found.
   template <class Meeting>
   bool met(const Place& place, const Meeting& at) const {
     if (place.object == kNone || at.object != place.object) return false;
@@ -143,7 +143,7 @@ class Lamps {
     return tree_.empty() ? parts_[part].share
                          : tree_.probability(from, nullptr, static_cast<std::uint32_t>(part));
   }
-  /// Nothing has to be known of the place but that the ray to it met it.
+  /// Nothing has to be known of the place but that the ray to it hit it.
   bool isPlain(const Tracer& tracer, const Place& place, const Interfaces& inside) const;
 
   SkyTable sky_;

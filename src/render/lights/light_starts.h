@@ -26,7 +26,7 @@ class LightStarts {
 
   static constexpr std::size_t kNoLight = static_cast<std::size_t>(-1);
 
-  /// The start of a path, and what it meets first.
+  /// The start of a path, and what it hits first.
   struct Start {
     Ray ray;
     Interfaces inside;
@@ -44,7 +44,7 @@ class LightStarts {
   /// The light that arrives straight at a vertex of that path.
   struct Arrival {
     Color power;  ///< over the density of the place and its cosine
-    /// Densities, over the start's: of the start, as places sample it from the other end; and of meeting it
+    /// Densities, over the start's: of the start, as places sample it from the other end; and of hitting it
     /// at random, without what only the place knows. 0 where that cannot be.
     Real asked = 0, met = 0;
   };
@@ -55,7 +55,7 @@ class LightStarts {
   /// for the cosine there: of a light of the world that gave it `arriving`; of a lamp and of the sky.
   Real overAsked(const World& world, std::size_t light, const Illumination& arriving, const Vec3& at) const;
   Real overAsked(const Lamps::Place& place, const Vec3& at) const;
-  /// With which starts go along a ray that met a lamp or, from that place, the sky: per area and solid angle,
+  /// With which starts go along a ray that hit a lamp or, from that place, the sky: per area and solid angle,
   /// except for the cosine at a lamp.
   Real ofLamp(const Hit& hit) const;
   Real ofSky(const Vec3& at, const Vec3& toLight) const;

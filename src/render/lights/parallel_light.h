@@ -7,7 +7,7 @@
 
 namespace trace {
 
-/// From where light of that direction comes to the point: before all that it may meet on its way there. What
+/// From where light of that direction comes to the point: before all that it may hit on its way there. What
 /// has an end lies behind the point; a plane may cross the way anywhere before it.
 inline Vec3 startOfParallel(Tracer& tracer, const Vec3& point, const Vec3& direction) {
   Real farthest = 0;

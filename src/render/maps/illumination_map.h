@@ -34,7 +34,7 @@ class IlluminationMap {
     Real area;  ///< area of the surface, where u and v grow by 1
     auto surface() const { return std::tuple(object, part, inward); }
   };
-  /// Where on a map the place is that a ray has met, on the side it comes from.
+  /// Where on a map the place is that a ray has hit, on the side it comes from.
   std::optional<Place> place(const World& world, const Ray& ray, const Hit& hit) const;
 
   /// `power` falls there.

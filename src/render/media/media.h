@@ -81,7 +81,7 @@ struct ScatterPlace {
 void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photons, const Sampler& numbers);
 /// Adds the light of the scene's lights.
 void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers);
-/// Adds the light of one place on emissive objects. `met`: a ray that is scattered there may meet them,
+/// Adds the light of one place on emissive objects. `met`: a ray that is scattered there may hit them,
 /// too.
 void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lamps& lamps, bool met,
                const Sampler& numbers);

@@ -51,7 +51,7 @@ Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, cons
     fan_ = spectralFan(settings.wavelengths, spread);
 }
 
-/// From the hit straight to the raised place nothing may be met: so no light comes through what stands there,
+/// From the hit straight to the raised place nothing may be hit: so no light comes through what stands there,
 /// and none into a closed body.
 void Interaction::raise(bool turned) {
   const std::optional<SurfacePoint> place = tracer.world().raised(hit, turned);
@@ -166,7 +166,7 @@ Vec3 turnedAlong(const Vec3& direction, const Vec3& from, const Vec3& to) {
 
 }  // namespace
 
-/// Whether a ray from so high above the place down to a point of the plane there meets the surface as
+/// Whether a ray from so high above the place down to a point of the plane there hits the surface as
 /// it continues from the place: about there, and bent no more than PhotonMap takes for one surface.
 bool Interaction::continues(const Vec3& to, Real height) const {
   constexpr Real kNearest = 0.7, kFarthest = 2, kSteepest = 0.045;  // as a fraction of the distance

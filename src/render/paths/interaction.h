@@ -19,9 +19,9 @@ struct SubsurfaceBsdf;
 
 class Interaction {
  public:
-  /// For a ray that met `hit`; `inside` is what it was in there. `footprint` is that of the ray at the hit,
-  /// if textures want it. `spread` from 0 to 1 says where wavelengths lie, should light be split here. What
-  /// is passed must live longer.
+  /// For a ray that ends at `hit`; `inside` is what it was in there. `footprint` is that of the ray at the
+  /// hit, if textures want it. `spread` from 0 to 1 says where wavelengths lie, should light be split here.
+  /// What is passed must live longer.
   Interaction(Tracer& tracer, const Ray& ray, const Hit& hit, const Differentials* footprint,
               const Interfaces& inside, Real spread);
   Interaction(const Interaction&) = delete;
@@ -59,7 +59,7 @@ class Interaction {
   void addLights(Gather& sum, const Sampler& sampler) const;
 
   /// Adds `factor` times the part of the half space above the surface that is open, by so many rays, whose
-  /// directions are spread by the cosine to the normal: what they meet within Settings::occlusionReach closes
+  /// directions are spread by the cosine to the normal: what they hit within Settings::occlusionReach closes
   /// it.
   void addOpen(Gather& sum, Term::Kind kind, const Color& factor, int rays, const Sampler& sampler) const;
 

@@ -19,7 +19,7 @@ Color scattered(const Interaction& at, const Vec3& toEye, const Vec3& toLight, b
 Color scatteredOn(const Interaction& at, const Vec3& toEye, const Vec3& toLight, bool lit = false);
 
 /// Around the normal on the side of `toEye` where the surface is a sheet, which is the same from both sides:
-/// a path from a light may have met it on the other.
+/// a path from a light may have hit it on the other.
 Frame frameToward(const Interaction& at, const Vec3& toEye);
 
 class Onward {

@@ -31,7 +31,7 @@ struct Entrance {
 };
 
 /// Where the light went in that goes to the eye of `at`, whose body that is. `importance` says how much each
-/// colour counts. Nothing where no way was found. The place is the one that the Tracer has met last.
+/// colour counts. Nothing where no way was found. The place is the one that the Tracer has hit last.
 std::optional<Entrance> entrance(const Interaction& at, const SubsurfaceBsdf& body, const Color& importance,
                                  Sampler numbers);
 

@@ -68,7 +68,7 @@ class PhotonEmitter {
     Real law = 0;                 ///< what falls on the pane that it has crossed last
     int bounces = 0, scatterings = 0;
     int panes = 0;           ///< panes of the bounces, on the way straight from a light of the scene
-    bool straight = true;    ///< it has met nothing but panes that bend nothing
+    bool straight = true;    ///< it has hit nothing but panes that bend nothing
     bool asked = true;       ///< shadow rays bring it to media, if a light of the scene sent it
     bool gathered = false;   ///< it is not what shadow rays bring
     bool scattered = false;  ///< by a surface, a body or a medium

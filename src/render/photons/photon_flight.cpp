@@ -51,7 +51,7 @@ bool PhotonEmitter::rests(const Flight& f) const {
 }
 
 /// Whether a path that media scatter that often counts. Seen from the eye, the last scattering that
-/// `medium-depth` allows is lit by lights alone, not by surfaces; so light must have met a medium first.
+/// `medium-depth` allows is lit by lights alone, not by surfaces; so light must have hit a medium first.
 bool PhotonEmitter::counts(int scatterings, bool mediumFirst) const {
   return scatterings < settings_.mediumDepth || (scatterings == settings_.mediumDepth && mediumFirst);
 }

@@ -127,7 +127,7 @@ Picture changeShown(const Picture& values, const Settings& settings) {
   return coloured(mapped(values, [&](const Color& c) { return clamp01(level(c)); }), settings);
 }
 
-/// 1 / depth has a mean where some samples meet nothing.
+/// 1 / depth has a mean where some samples hit nothing.
 Color nearnessValue(const PassPlace& at) { return Color(1 / depthValue(at).r); }
 
 constexpr Color kNowhere(kInfinity);

@@ -1,4 +1,4 @@
-// THE table of passes: what camera rays meet, kept as pictures beside the picture (`--passes`). Each is a
+// THE table of passes: what camera rays hit, kept as pictures beside the picture (`--passes`). Each is a
 // layer of the Film. A new one is one value of the enum Pass (scene/settings.h) and one row.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace trace {
 
-/// A camera ray that met something.
+/// A camera ray that hit something.
 struct PassPlace {
   const CameraRay& camera;
   const Hit& hit;
@@ -27,7 +27,7 @@ struct PassRow {
   Color background;  ///< where a ray hits nothing that the camera sees, and where nothing is rendered
   Color tooNear;     ///< where it hits something nearer than the camera sees
 
-  /// The value at the surface that a camera ray meets. A pass of one number has it in all three channels.
+  /// The value at the surface that a camera ray hits. A pass of one number has it in all three channels.
   /// Null: the pass is made of the finished picture, and is no layer.
   Color (*value)(const PassPlace&);
   /// The pass for the eye: values from 0 to 1 from raw ones.

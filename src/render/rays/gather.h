@@ -60,7 +60,7 @@ class Gather {
     add(term);
   }
 
-  /// Adds the radiance of a light that the ray meets.
+  /// Adds the radiance of a light that the ray hits.
   void add(const World::Lamp& lamp) {
     add(Term::Kind::emissive, lamp.seen.color);
     stop(MetLight{lamp.light, lamp.seen.t});

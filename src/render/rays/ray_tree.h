@@ -40,7 +40,7 @@ std::vector<MaterialShare> sharesOf(const MaterialMix& mix);
 struct LeftScene {
   static constexpr std::string_view kName = "left-scene";
 };
-/// A camera ray met something where the camera does not see; it shows the background.
+/// A camera ray hit something where the camera does not see; it shows the background.
 struct CutOff {
   static constexpr std::string_view kName = "cut-off";
   std::uint32_t object;
@@ -80,7 +80,7 @@ struct Roulette {
 struct TotalInternalReflection {
   static constexpr std::string_view kName = "total-internal-reflection";
 };
-/// A shadow ray met something that lets no light through.
+/// A shadow ray hit something that lets no light through.
 struct Blocked {
   static constexpr std::string_view kName = "blocked";
   std::uint32_t object;  ///< the nearest that transmits nothing

@@ -19,11 +19,11 @@ class Tracer {
   Tracer(const World& world, const Settings& settings, RayTree* tree = nullptr)
       : world_(world), settings_(settings), traits_(traitsOf(settings)), tree_(tree) {}
 
-  /// The first surface that a ray of this kind meets. `inside` is what the ray starts in, and becomes what it
+  /// The first surface that a ray of this kind hits. `inside` is what the ray starts in, and becomes what it
   /// is in when it gets there: with nested glass a ray walks on through surfaces at which nothing changes.
   ///
-  /// It walks on through holes, too. What is there in part is met with this chance, if `chance` is a number
-  /// drawn from 0 up to 1, and counts as a whole; where that is 0 it is met, and Hit::opacity says its share.
+  /// It walks on through holes, too. What is there in part is hit with this chance, if `chance` is a number
+  /// drawn from 0 up to 1, and counts as a whole; where that is 0 it is hit, and Hit::opacity says its share.
   std::optional<Hit> cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance = 0);
   /// Such a number, drawn only where something has holes.
   template <class Numbers>
@@ -49,10 +49,10 @@ class Tracer {
     return world_.closest(ray, facesSeenBy(kind), statistics_, tMost);
   }
 
-  /// Where it meets that object nearest to t, whatever lies before; counted and not recorded, likewise.
+  /// Where it hits that object nearest to t, whatever lies before; counted and not recorded, likewise.
   std::optional<Found> lookAt(const Ray& ray, RayKind kind, std::uint32_t object, Real t);
 
-  /// The ray met that place, which was found otherwise: it is recorded as one that was cast.
+  /// The ray hit that place, which was found otherwise: it is recorded as one that was cast.
   Hit meet(const Ray& ray, RayKind kind, const Found& found);
   /// The ray recorded last is drawn from one place to the other.
   void drawFrom(const Vec3& from, const Vec3& to);
@@ -150,7 +150,7 @@ class Tracer {
   std::uint64_t testsSoFar() const;
 
   Faces facesSeenBy(RayKind kind) const;
-  /// Why a ray of the kind met nothing: there is nothing, or only what --back-faces hides from it.
+  /// Why a ray of the kind hit nothing: there is nothing, or only what --back-faces hides from it.
   RayEnd hiddenFrom(const Ray& ray, RayKind kind) const;
   std::optional<Found> behindHoles(const Ray& ray, RayKind kind, Statistics& statistics) const;
   template <class Nodes>

@@ -22,7 +22,7 @@ struct Thrown {
   int light = 0;  ///< how many places the path has, without the camera
 };
 
-/// A camera ray and the first surface that it meets.
+/// A camera ray and the first surface that it hits.
 struct CameraRay {
   Ray ray;
   std::optional<Hit> hit;

@@ -11,7 +11,7 @@
 namespace trace {
 
 /// How much of a sample is ink, from 0 to 1: its camera ray goes through the place `film` of a picture of
-/// that size and through the place `lens`, and has met `hit`.
+/// that size and through the place `lens`, and has hit `hit`.
 Real inkAt(Tracer& tracer, const std::optional<Hit>& hit, const Vec2& film, const Vec2& lens,
            const Size& size);
 

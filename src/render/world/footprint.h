@@ -1,4 +1,4 @@
-// How the footprint of a ray continues from the surface that it meets. Kept out of line, since most renders
+// How the footprint of a ray continues from the surface that it hits. Kept out of line, since most renders
 // want none.
 #pragma once
 
@@ -20,7 +20,7 @@ class Footprint {
   std::optional<Differentials> of_;
 };
 
-/// The footprint of the ray where it has met the surface.
+/// The footprint of the ray where it has hit the surface.
 Footprint arrivedAt(const Hit& hit, const Differentials& ray, const Vec3& direction);
 
 /// The footprint of the ray that is mirrored where one has arrived, at the unit normal for shading, on either

@@ -88,7 +88,7 @@ class World {
 
   /// Calls visit(Found) for every crossing at 0 < t < tMost, in no particular order; ends when it returns
   /// true. The way to ask whether anything is hit at all. A triangle that its hierarchy holds in parts may be
-  /// met more than once.
+  /// hit more than once.
   template <class Nodes>
   void crossings(const Ray& ray, Real tMost, Faces faces, QueryCounts<Nodes>& counts,
                  VisitFound visit) const {
@@ -162,7 +162,7 @@ class World {
     const auto& mesh = objects_[object].mesh;
     return (mesh && mesh->data().twoSided) || (hasTwoSided_ && twoSided(materials));
   }
-  /// A ray that leaves the object on the side of its normal does not meet it again.
+  /// A ray that leaves the object on the side of its normal does not hit it again.
   bool convex(std::uint32_t object) const { return objects_[object].convex; }
   /// It encloses space; a mesh does if it is closed.
   bool solid(std::uint32_t object) const { return objects_[object].solid; }
@@ -172,7 +172,7 @@ class World {
   Filling filling(const Hit& hit, const WhittedTerms& terms, const Settings& settings) const;
   /// The media that a ray from the point starts in.
   Interfaces interfacesAt(const Vec3& point, const Settings& settings) const;
-  /// A body that a medium fills. One without a surface is a cloud: light meets it nowhere.
+  /// A body that a medium fills. One without a surface is a cloud: light hits it nowhere.
   struct MediumBody {
     std::uint32_t object;
     bool cloud;
@@ -229,7 +229,7 @@ class World {
   /// A choice among lights().
   const LightTree& lightTree() const { return *lightTree_; }
   const std::vector<Portal>& portals() const { return portals_; }
-  /// A light that a ray meets.
+  /// A light that a ray hits.
   struct Lamp {
     std::uint32_t light;  ///< its place in Scene::lights
     LightSeen seen;
@@ -279,7 +279,7 @@ class World {
   template <class Nodes>
   [[gnu::noinline]] bool closestSeen(std::uint32_t object, const Ray& ray, Faces faces,
                                      QueryCounts<Nodes>& counts, MeshHit& met) const;
-  /// Whether the faces include the triangle that was met; the ray is in the space of the object, a mesh.
+  /// Whether the faces include the triangle that was hit; the ray is in the space of the object, a mesh.
   bool included(Faces faces, std::uint32_t object, const Ray& ray, const MeshHit& met) const {
     if (sees(faces, ray, objects_[object].mesh->data(), met)) return true;
     return hasTwoSided_ && twoSided(materialMix({met.hit.t, object, met.triangle, met.hit}));
@@ -332,7 +332,7 @@ class World {
   std::vector<Instance> objects_;
   std::shared_ptr<const Forms> forms_;  ///< forms of each object
   std::shared_ptr<const Bvh> bvh_;
-  std::vector<std::uint32_t> always_;  ///< objects that every ray may meet: those infinite, which no
+  std::vector<std::uint32_t> always_;  ///< objects that every ray may hit: those infinite, which no
                                        ///< hierarchy can hold; where there is no tree, all
   static const Bsdf& clear();          ///< what is seen through as if it were not there
 

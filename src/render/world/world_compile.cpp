@@ -251,11 +251,11 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     if (object.material >= world.surfaces_.size())
       throw Error(Fault::scene, object.place, "the object's material does not exist");
     if (settings.omit.has(static_cast<ShapeKind>(instance.kind))) {
-      boxes.emplace_back();  // keeps the numbering of objects; what is empty is never met
+      boxes.emplace_back();  // keeps the numbering of objects; what is empty is never hit
       world.objects_.push_back(std::move(instance));
       continue;
     }
-    if (flat)  // stays, for the numbering of objects; its empty bounds are never met
+    if (flat)  // stays, for the numbering of objects; its empty bounds are never hit
       messages.warn(object.place, "the object's transform squeezes it flat, so it is left out");
     std::vector<std::uint32_t> used{object.material};  // materials used by all its parts
     Box3 box;
@@ -312,7 +312,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     if (fills && encloses)
       world.media_.push_back({number, cloud, MediumModel(material), instance.placement.outFromIn() * box});
     if (encloses && !cloud) world.glass_.push_back(number);
-    if (cloud) {  // it is met nowhere
+    if (cloud) {  // it is hit nowhere
       world.bounds_.extend(world.media_.back().bounds);
     } else if (isThere) {
       if (box.unbounded())

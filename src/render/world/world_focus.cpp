@@ -53,7 +53,7 @@ Vec3 World::seenPlaceOf(const std::string& name, const Scene& scene) const {
       nearest = std::min(nearest, found.t);
       return false;
     });
-  return nearest < kInfinity ? ray.at(nearest) : middle;  // the middle of a ring is nothing that rays meet
+  return nearest < kInfinity ? ray.at(nearest) : middle;  // the middle of a ring is nothing that rays hit
 }
 
 }  // namespace trace

@@ -143,7 +143,7 @@ struct CameraFrame {
   Ray pinhole(const Vec2& place) const {
     return {eye, normalize(look + right * (place.x - 0.5) + up * (place.y - 0.5))};
   }
-  /// From a place of the lens to where the ray through its middle meets the plane in focus.
+  /// From a place of the lens to where the ray through its middle hits the plane in focus.
   Ray through(const Ray& middle, const Vec2& u, const Vec3& normal) const {
     const Lens& lens = optics.lens;
     const Vec2 place = lens.at(u);

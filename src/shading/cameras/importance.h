@@ -24,7 +24,7 @@ class CameraImportance {
   /// is the eye, or a place of the lens.
   Real density(const Ray& ray) const;
 
-  /// The camera ray that meets a point, and the place of the picture from which it is sent.
+  /// The camera ray that hits a point, and the place of the picture from which it is sent.
   struct Seen {
     Ray ray;
     Vec2 place;
@@ -34,7 +34,7 @@ class CameraImportance {
   std::optional<Seen> sees(const Vec3& point, const Vec2& u) const;
 
  private:
-  /// From the eye to where the ray of the perspective meets the plane in focus; without a lens along the ray.
+  /// From the eye to where the ray of the perspective hits the plane in focus; without a lens along the ray.
   Vec3 sharp(const Ray& ray) const;
 
   CameraFrame frame_{};

@@ -22,7 +22,7 @@ Vec3 placeOn(const P& panel, const Vec2& chosen) {
   return panel.position + panel.u * at.x + panel.v * at.y;
 }
 
-/// Where along the ray the panel is met, if it is.
+/// Where along the ray the panel is hit, if it is.
 template <class P>
 std::optional<Real> meetsPanel(const P& panel, const Ray& ray) {
   const Vec3 across = cross(panel.u, panel.v);

@@ -52,7 +52,7 @@ struct PointLight {
     return reach;
   }
 
-  /// A ray from outside that meets the ball sees what lights a surface there as the whole light does.
+  /// A ray from outside that hits the ball sees what lights a surface there as the whole light does.
   std::optional<LightSeen> seen(const Ray& ray, const Rules& rules) const {
     if (!visible || !(radius > 0)) return {};
     const Vec3 toMiddle = position - ray.origin;

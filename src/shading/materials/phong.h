@@ -50,7 +50,7 @@ struct Phong : Interior {
   bool mirrors() const { return !isBlack(reflective); }
 
   const Phong& asPhong() const { return *this; }
-  /// The surface as light meets it.
+  /// The surface as light hits it.
   PhongBsdf at(const Rules& rules) const;
 };
 

@@ -2,7 +2,7 @@
 // Marschner, Li and Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007, equations
 // 16, 17, 20 and 21). Variant: height-correlated masking (Heitz, JCGT 3(2), 2014), visible normals are
 // chosen, and one of the two rays by the mirrored share. Reciprocal in the sense of light that changes its
-// medium: f(a, b) / n_b^2 = f(b, a) / n_a^2. Energy: what meets several facets is lost, a few percent of
+// medium: f(a, b) / n_b^2 = f(b, a) / n_a^2. Energy: what hits several facets is lost, a few percent of
 // light on glass of roughness 0.5, unless it is `compensated`: then it is spread evenly to both sides (Kulla
 // and Conty, Revisiting Physically Based Shading at Imageworks, SIGGRAPH 2017 course), as much to each as
 // reciprocity and Fresnel's mean ask.
@@ -63,7 +63,7 @@ struct RoughGlassBsdf : LocalBsdf<RoughGlassBsdf, RoughGlass> {
   static constexpr bool kTwoSided = true, kHasInside = true;
 
   Microfacets facets;
-  GlassLoss loss;  ///< loss of light that meets several facets, where it is compensated
+  GlassLoss loss;  ///< loss of light that hits several facets, where it is compensated
 
   RoughGlassBsdf() = default;
   explicit RoughGlassBsdf(const RoughGlass& model) : LocalBsdf(model) {
