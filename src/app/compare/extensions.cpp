@@ -25,12 +25,12 @@ constexpr std::array kExtensions{
     Extension{"noise-target", "adaptive sampling: nearly the same picture with fewer samples",
               "antialias.ray", "--spp 64 --sampling sobol", "--spp 64 --noise-target 0.01", ""},
     Extension{"subdivide",
-              "recursive subdivision of pixels whose corners differ, as in 1980: rays go where edges are",
+              "recursive subdivision of pixels whose corners differ, as in 1980, so that edges get the rays",
               "antialias.ray", "--spp 1", "--subdivide 3", ""},
     Extension{"denoise", "noise is removed from the finished picture, guided by surface features",
               "cornell.ray", "--spp 16", "--spp 16 --denoise on", ""},
-    Extension{"sampling", "random samples: slightly noisy edges in place of steps", "antialias.ray",
-              "--spp 4", "--spp 4 --sampling stratified", ""},
+    Extension{"sampling", "stratified random samples: slightly noisy edges in place of steps",
+              "antialias.ray", "--spp 4", "--spp 4 --sampling stratified", ""},
     Extension{"filter", "samples are weighted by their distance from the middle of the pixel",
               "antialias.ray", "--spp 9", "--spp 9 --filter gaussian", ""},
     Extension{"light-samples", "soft shadows of lights that have a size", "soft-shadows.ray",
@@ -50,29 +50,29 @@ constexpr std::array kExtensions{
               "--stereo off", "--stereo red-cyan", ""},
     Extension{"exposure", "brighter or darker, after the render", "lamps.ray", "--exposure 0", "--exposure 1",
               ""},
-    Extension{"white-balance", "the lamps' light becomes white", "lamps.ray", "--white-balance 0",
-              "--white-balance 3200", ""},
+    Extension{"white-balance", "the yellow light of lamps is shown as white", "lamps.ray",
+              "--white-balance 0", "--white-balance 3200", ""},
     Extension{"transfer", "sRGB levels, as screens expect them", "lamps.ray", "--transfer linear",
               "--transfer srgb", ""},
     Extension{"tone", "a film's curve: bright colours fade to white", "lamps.ray",
               "--transfer srgb --tone clamp", "--transfer srgb --tone agx", ""},
     Extension{"bloom", "light that lens and eye scatter around bright lights", "lamps.ray", "--bloom 0",
               "--bloom 0.15", ""},
-    Extension{"dither", "noise of one level in place of steps", "lamps.ray", "--dither off", "--dither on",
-              ""},
+    Extension{"dither", "noise of one level hides the steps of faint gradients", "lamps.ray", "--dither off",
+              "--dither on", ""},
     Extension{"integrator", "global illumination: every wall lights the others", "cornell.ray",
               "--spp 36 --integrator whitted", "--spp 36", ""},
     Extension{"bdpt", "bidirectional path tracing: lamps in bowls and shades light the room", "uplight.ray",
               "--integrator path --spp 36", "--spp 36", "", "--integrator path"},
-    Extension{"light-vertices", "the contribution of light sampling, one of the strategies", "uplight.ray",
-              "--spp 16", "--spp 16 --light-vertices 1", ""},
-    Extension{"camera-vertices", "light-traced paths that reach the camera directly", "uplight.ray",
-              "--spp 16", "--spp 16 --camera-vertices 1", ""},
+    Extension{"light-vertices", "the contribution of light sampling, one of the strategies of bdpt",
+              "uplight.ray", "--spp 16", "--spp 16 --light-vertices 1", ""},
+    Extension{"camera-vertices", "the contribution of light paths that are connected with the camera",
+              "uplight.ray", "--spp 16", "--spp 16 --camera-vertices 1", ""},
     Extension{"unweighted", "a single strategy without its MIS weights", "uplight.ray",
               "--spp 16 --camera-vertices 1", "--spp 16 --camera-vertices 1 --unweighted on", ""},
-    Extension{"mlt", "Markov chains of paths that explore where light was found", "door.ray",
+    Extension{"mlt", "Metropolis light transport: Markov chains mutate paths that found light", "door.ray",
               "--integrator path --spp 36", "--spp 36", "", "--integrator path"},
-    Extension{"chains", "mutations of path vertices in place of random numbers", "door.ray",
+    Extension{"chains", "Veach's mutations, which move the vertices of a path", "door.ray",
               "--chains bdpt --spp 36", "--chains veach --spp 36", ""},
     Extension{"photon", "photon maps: caustics of glass, and light between walls", "photons.ray",
               "--integrator path --spp 16", "--spp 16 --photons 300000", "", "--integrator path"},
@@ -95,7 +95,8 @@ constexpr std::array kExtensions{
     Extension{"fog", "air that scatters light: beams from a window", "fog.ray", "--fog 0", "", ""},
     Extension{"medium", "media of mist, smoke, clouds and fire: beams of the sun", "mist.ray", "--omit box",
               "", ""},
-    Extension{"threshold", "rays with small contributions are not traced: faster, and nearly the same",
+    Extension{"threshold",
+              "rays with small contributions are not traced: nearly the same picture in less time",
               "threshold.ray", "--threshold 0", "--threshold 0.3", ""},
     Extension{"fresnel", "glass reflects more at grazing angles", "coloured-glass.ray", "--fresnel constant",
               "--fresnel exact", ""},
@@ -109,7 +110,7 @@ constexpr std::array kExtensions{
               ""},
     Extension{"bumps", "normals perturbed by a texture", "bumps.ray", "--textures off", "", "",
               "--switched-off bump"},
-    Extension{"displacement", "points of meshes moved by a texture: stones with outlines and shadows",
+    Extension{"displacement", "points of meshes moved by a texture, which changes outlines and shadows",
               "displacement.ray", "--textures off", "", ""},
     Extension{"backdrop", "a picture behind the scene", "backdrop.ray", "--backdrop none", "", ""},
     Extension{"environment", "an environment map", "environment.ray", "--environment none", "", ""},
@@ -137,12 +138,12 @@ constexpr std::array kExtensions{
               BALL(258, 260, 458, 460)},
     Extension{"coated", "plastic: the reflection grows towards the edge", kModels, kPhong, "",
               BALL(458, 260, 658, 460)},
-    Extension{"principled", "metalness, clear coat, sheen and iridescence, as glTF has them", kModels, kPhong,
-              "", BALL(658, 260, 858, 460)},
-    Extension{
-        "layers",
-        "lacquer, fibres, grain, tint and film of one model, and glass that colours and disperses light",
-        "principled.ray", kPhong, "", "", "--models phong"},
+    Extension{"principled", "metalness, clear coat, sheen and iridescence, as in glTF", kModels, kPhong, "",
+              BALL(658, 260, 858, 460)},
+    Extension{"layers",
+              "clear coat, sheen, grain, tint and iridescence of the principled model, and its coloured, "
+              "dispersive glass",
+              "principled.ray", kPhong, "", "", "--models phong"},
     Extension{"conductor", "metal in the colour of its measured indices", kModels, kPhong, "",
               BALL(858, 260, 1058, 460)},
     Extension{"velvet", "cloth with bright edges", kModels, kPhong, "", BALL(58, 460, 258, 660)},
@@ -156,8 +157,8 @@ constexpr std::array kExtensions{
               ""},
     Extension{"subsurface", "light that spreads in marble, milk, skin and jade", "subsurface.ray", kPhong, "",
               ""},
-    Extension{"thin_glass", "panes that mirror by the angle, and do not bend light", "rain.ray", kPhong, "",
-              ""},
+    Extension{"thin_glass", "panes that reflect more at grazing angles and do not refract", "rain.ray",
+              kPhong, "", ""},
     Extension{"hatching", "strokes and dots that grow in the shade", "ink.ray", kPhong, "", ""},
 };
 #undef BALL
@@ -265,8 +266,10 @@ std::string extensionsMarkdown() {
   std::string text =
       "# Extensions\n\nMade by `./dev features` from the table in src/app/compare/extensions.cpp; do not "
       "edit.\n\nThis page shows the extensions of Trace beyond the ray tracer of the courses: each example "
-      "without it, with it, and the difference of the two pictures. All are off unless the scene or the "
-      "command line asks for them. Shading models are compared with the closest Blinn-Phong approximation "
+      "without it, with it, and the difference of the two pictures. In `SBT-raytracer` files all are off "
+      "unless "
+      "the scene or the command line asks for them; `Trace 1` files use some by default. Shading models are "
+      "compared with the closest Blinn-Phong approximation "
       "(`--models phong`).\n\n`--without NAME` switches any of them off, also one that the scene asks for: "
       "`--without aperture`, `--without thin-film`. Parts of scenes have names, too: `--without media`, "
       "`spot`, `warn`, "
