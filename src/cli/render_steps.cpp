@@ -130,9 +130,9 @@ void reportOldCheckpoints(const Session& session, const PictureFiles& files, con
   std::snprintf(size, sizeof size, "%.1f MB", static_cast<double>(bytes) / 1e6);
   const bool one = others.size() == 1;
   console.line(LogLevel::info, "note: " + counted(others.size(), "checkpoint") +
-                                   " of other options or scenes " + (one ? "lies" : "lie") + " there, " +
-                                   size + "; if " + (one ? "it is" : "they are") + " wanted no more: rm" +
-                                   names);
+                                   " of other options or scenes " + (one ? "is" : "are") +
+                                   " next to the picture, " + size + "; to remove " + (one ? "it" : "them") +
+                                   ": rm" + names);
 }
 
 void reportLosses(const Session& session, const RenderResult& result, const Console& console) {

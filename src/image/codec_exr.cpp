@@ -122,7 +122,7 @@ Extent extentOf(const Imath::Box2i& window) {
   constexpr int kFarthest = 1 << 24;
   for (int corner : {window.min.x, window.min.y, window.max.x, window.max.y})
     if (corner < -kFarthest || corner > kFarthest)
-      throw std::runtime_error("a window lies absurdly far away");
+      throw std::runtime_error("a window is too far from the origin");
   return {window.max.x - window.min.x + 1, window.max.y - window.min.y + 1};
 }
 Extent checkedExtent(const Imath::Box2i& window, size_t fileBytes, const PictureLimits& limits) {

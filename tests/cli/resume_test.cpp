@@ -102,8 +102,9 @@ TEST_F(ResumeTest, OfAnotherPictureIsTold) {
   EXPECT_TRUE(contains(r.err, "starts from the beginning; out.png.checkpoint: it is of another picture"))
       << r.err;
   EXPECT_TRUE(exists("out.png.checkpoint")) << "who knows whose it is";
-  EXPECT_TRUE(contains(r.err, "note: 1 checkpoint of other options or scenes lies there, ")) << r.err;
-  EXPECT_TRUE(contains(r.err, "if it is wanted no more: rm out.png.checkpoint\n")) << r.err;
+  EXPECT_TRUE(contains(r.err, "note: 1 checkpoint of other options or scenes is next to the picture, "))
+      << r.err;
+  EXPECT_TRUE(contains(r.err, "; to remove it: rm out.png.checkpoint\n")) << r.err;
 }
 
 TEST_F(ResumeTest, WhereNoneCanBeWrittenTheRenderGoesOn) {

@@ -137,9 +137,7 @@ Difference differenceOf(const std::string& a, const std::string& b) {
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   list += names.size() == 1 ? " differs" : " differ";
   if (names == std::set<std::string>{"--noise-target"})
-    list +=
-        " (pixels that had settled for the one were given no more samples, and for the other they may need "
-        "them)";
+    list += " (pixels that reached the one target took no more samples, and may need them for the other)";
   return {list, names.size()};
 }
 

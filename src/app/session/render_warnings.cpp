@@ -163,9 +163,9 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
         warn("--" + std::string(option) +
              " changes nothing with --subdivide: a pixel is the mean of its squares");
   } else if (s.denoise && chains) {
-    warn("--denoise changes nothing: it does not know how exact a picture by chains is");
+    warn("--denoise changes nothing: the noise of a picture by chains is not known");
   } else if (s.denoise && splats) {
-    warn("--denoise changes nothing with bdpt: how exact its light image is is not known");
+    warn("--denoise changes nothing with bdpt: the noise of its light image is not known");
   } else if (s.denoise && samplesOf(s) < 8) {
     warn(
         "--denoise changes nothing: it compares two halves of a pixel's samples, from 8 on, and --spp "
