@@ -35,6 +35,8 @@ enum class Verb {
   format,
   expand,
   stereogram,
+  split,
+  merge,
   features,
   selftest,
   help
@@ -66,6 +68,8 @@ struct Arguments {
   StatsStyle stats = StatsStyle::none;
   std::vector<int> frames;  ///< --frames, in order; empty for one picture
   double framesPerSecond = 24;
+  int part = 0;   ///< render: K of --part K/N, from 1 on; 0 for the whole picture
+  int parts = 0;  ///< render: N of --part K/N; split: --parts; 0 if neither is given
   Resume resume = Resume::goOn;
   Conversion conversion;
   bool strict = false;

@@ -72,14 +72,6 @@ int codeOf(const Command& command, const Arguments& arguments, Fault fault) {
   return command.failed ? command.failed(arguments) : static_cast<int>(fault);
 }
 
-/// The files that scenes may read besides their own folders: those of the command line.
-std::vector<std::string> allowedFiles(const Arguments& arguments) {
-  std::vector<std::string> allowed = arguments.allowRead;
-  for (const Choice& choice : arguments.choices)
-    if (findOption(choice.option).kind == Option::Kind::file) allowed.push_back(choice.value);
-  return allowed;
-}
-
 /// Within the limits of memory and time that the command line gives.
 int runLimited(const Command& command, const Arguments& arguments, const Console& console, Budget& budget) {
   if (command.verb == Verb::gui) return command.run(arguments, console);  // has no end of its own
@@ -170,6 +162,13 @@ Error outOfMemory(const std::string& doing, const std::string& file) {
           "--max-memory N allows N MiB; the default is half of the machine's memory"};
 }
 
+std::vector<std::string> allowedFiles(const Arguments& arguments) {
+  std::vector<std::string> allowed = arguments.allowRead;
+  for (const Choice& choice : arguments.choices)
+    if (findOption(choice.option).kind == Option::Kind::file) allowed.push_back(choice.value);
+  return allowed;
+}
+
 void checkDistinct(const std::string& read, const std::string& written) {
   if (!written.empty() && sameFile(pictureName(read).file, written))
     throw Error(Fault::usage, "\"" + read + "\" and \"" + written + "\" are the same file",
@@ -239,6 +238,12 @@ std::span<const Command> commands() {
               nullptr, "the expanded scene; by default it is printed"},
       Command{Verb::stereogram, "stereogram", "SCENE -o OUT", "make a random-dot stereogram of the scene",
               true, stereogramCommand, nullptr, "the picture of dots"},
+      Command{Verb::split, "split", "SCENE --parts N",
+              "divide a render among machines: a folder of jobs for make or Slurm", true, splitCommand,
+              nullptr, "the folder of the parts; by default the scene's name with .parts, in this folder"},
+      Command{Verb::merge, "merge", "FOLDER [-o OUT]",
+              "put the parts of ray split together to the picture that one machine renders", true,
+              mergeCommand, nullptr, "the picture; by default the scene's name with .png, in this folder"},
       Command{Verb::features, "features", "", "extras, picture and scene formats, integrators", false,
               featuresCommand, nullptr,
               "the file of what is printed, or a folder for the page and the pictures of --examples"},

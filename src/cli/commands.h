@@ -47,6 +47,9 @@ Error outOfMemory(const std::string& doing, const std::string& file = {});
 /// a scene is made of are known once it is read: checkIsNoInput().
 void checkDistinct(const std::string& read, const std::string& written);
 
+/// The files that scenes may read besides their own folders: those of the command line.
+std::vector<std::string> allowedFiles(const Arguments& arguments);
+
 /// The context of most commands that print facts.
 inline constexpr std::array<std::string_view, 2> kTextOrJson{"text", "json"};
 /// --format, or the first of those the command knows. Throws Error(Fault::usage) for another.
@@ -76,6 +79,8 @@ int newCommand(const Arguments& arguments, const Console& console);
 int formatCommand(const Arguments& arguments, const Console& console);
 int expandCommand(const Arguments& arguments, const Console& console);
 int stereogramCommand(const Arguments& arguments, const Console& console);
+int splitCommand(const Arguments& arguments, const Console& console);
+int mergeCommand(const Arguments& arguments, const Console& console);
 int featuresCommand(const Arguments& arguments, const Console& console);
 int selftestCommand(const Arguments& arguments, const Console& console);
 int guiCommand(const Arguments& arguments, const Console& console);

@@ -125,8 +125,10 @@ Candidates operands(Verb command) {
     case Verb::convert:
     case Verb::format:
     case Verb::expand:
+    case Verb::split:
     case Verb::stereogram: return sceneFiles();
     case Verb::diff: return pictureFiles();
+    case Verb::merge:
     case Verb::grade: return {CandidateKind::folders};
     case Verb::texture: {
       Candidates result = sceneFiles();

@@ -16,21 +16,24 @@ namespace {
 using Takes = Flag::Takes;
 constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff}, kGrade{Verb::grade},
     kConvert{Verb::convert}, kStereogram{Verb::stereogram}, kComparing{Verb::diff, Verb::grade},
-    kOfScenes{Verb::render, Verb::info,  Verb::bench,     Verb::explain,
-              Verb::lint,   Verb::grade, Verb::stereogram},
-    kStrict{Verb::render, Verb::info,  Verb::bench,   Verb::explain,
-            Verb::lint,   Verb::grade, Verb::convert, Verb::stereogram},
-    kWorking{Verb::render, Verb::info,    Verb::bench,   Verb::explain,   Verb::lint,   Verb::diff,
-             Verb::grade,  Verb::convert, Verb::texture, Verb::materials, Verb::expand, Verb::stereogram},
-    kWithOutput{Verb::render, Verb::explain,    Verb::lint,      Verb::diff,
-                Verb::grade,  Verb::texture,    Verb::materials, Verb::format,
-                Verb::expand, Verb::stereogram, Verb::features,  Verb::selftest},
-    kReading{Verb::render, Verb::gui,     Verb::info,    Verb::bench,  Verb::explain,   Verb::lint,
-             Verb::grade,  Verb::convert, Verb::texture, Verb::expand, Verb::stereogram},
+    kOfScenes{Verb::render, Verb::info,  Verb::bench,      Verb::explain,
+              Verb::lint,   Verb::grade, Verb::stereogram, Verb::split},
+    kStrict{Verb::render, Verb::info,    Verb::bench,      Verb::explain, Verb::lint,
+            Verb::grade,  Verb::convert, Verb::stereogram, Verb::split},
+    kWorking{Verb::render, Verb::info,       Verb::bench,   Verb::explain, Verb::lint,
+             Verb::diff,   Verb::grade,      Verb::convert, Verb::texture, Verb::materials,
+             Verb::expand, Verb::stereogram, Verb::split,   Verb::merge},
+    kWithOutput{Verb::render,  Verb::explain,   Verb::lint,     Verb::diff,    Verb::grade,
+                Verb::texture, Verb::materials, Verb::format,   Verb::expand,  Verb::stereogram,
+                Verb::split,   Verb::merge,     Verb::features, Verb::selftest},
+    kReading{Verb::render, Verb::gui,     Verb::info,    Verb::bench,  Verb::explain,    Verb::lint,
+             Verb::grade,  Verb::convert, Verb::texture, Verb::expand, Verb::stereogram, Verb::split},
+    kFrames{Verb::render, Verb::split},
     kAnswering{Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::diff, Verb::grade},
-    kEverywhere{Verb::render, Verb::gui,    Verb::info,       Verb::bench,    Verb::explain,   Verb::lint,
-                Verb::diff,   Verb::grade,  Verb::convert,    Verb::texture,  Verb::materials, Verb::newScene,
-                Verb::format, Verb::expand, Verb::stereogram, Verb::features, Verb::selftest,  Verb::help};
+    kEverywhere{Verb::render,    Verb::gui,      Verb::info,     Verb::bench,    Verb::explain,
+                Verb::lint,      Verb::diff,     Verb::grade,    Verb::convert,  Verb::texture,
+                Verb::materials, Verb::newScene, Verb::format,   Verb::expand,   Verb::stereogram,
+                Verb::split,     Verb::merge,    Verb::features, Verb::selftest, Verb::help};
 constexpr Verbs kTexture{Verb::texture}, kFeatures{Verb::features};
 
 /// The index of the value in the names. Throws Error(Fault::usage).
@@ -172,6 +175,17 @@ int wholeNumber(std::string_view flag, std::string_view value, int least, int mo
   return static_cast<int>(number->value);
 }
 
+constexpr int kMostParts = 1000000;
+
+/// "2/5".
+void setPart(Arguments& arguments, std::string_view value) {
+  const std::size_t slash = value.find('/');
+  if (slash == std::string_view::npos)
+    throw Error(Fault::usage, "--part: expected K/N, as in 2/5, found \"" + std::string(value) + "\"");
+  arguments.parts = wholeNumber("part", value.substr(slash + 1), 1, kMostParts);
+  arguments.part = wholeNumber("part", value.substr(0, slash), 1, arguments.parts);
+}
+
 /// "512x256".
 void setSize(Arguments& arguments, std::string_view value) {
   const std::size_t by = value.find('x');
@@ -193,17 +207,32 @@ std::span<const Flag> flags() {
   static constexpr std::array kTable{
       Flag{"output", 'o', Takes::value, "FILE", "", kWithOutput, true,
            "the file to write; ray COMMAND --help describes its contents", setOutput},
-      Flag{"frames", 0, Takes::value, "A-B", "", kRender, false,
+      Flag{"frames", 0, Takes::value, "A-B", "", kFrames, false,
            "render frames A to B of an animation, or A-B/N every Nth; the picture's name holds #### for the "
            "number; frames that are there already with the same settings are skipped, but for .bmp "
            "and .tga, which cannot say how they were made",
            setFrames},
-      Flag{"fps", 0, Takes::value, "X", "", kRender, false,
+      Flag{"fps", 0, Takes::value, "X", "", kFrames, false,
            "frames per second: frame F shows the time F / X; default 24",
            [](Arguments& a, std::string_view value) {
              a.framesPerSecond = numberOf("fps", value, 0);
              if (a.framesPerSecond < 1e-6) throw Error(Fault::usage, "--fps: expected a number above 0");
            }},
+      Flag{"part", 0, Takes::value, "K/N", "", kRender, false,
+           "render part K of N of the picture into a file that ray merge puts together with the others; with "
+           "--frames F of that frame (docs/how-to/cluster.md)",
+           setPart},
+      Flag{
+          "parts",
+          0,
+          Takes::value,
+          "N",
+          "",
+          {Verb::split},
+          true,
+          "the number of parts of each picture, for as many machines; default 1 with --frames, where each "
+          "frame is a part",
+          [](Arguments& a, std::string_view value) { a.parts = wholeNumber("parts", value, 1, kMostParts); }},
       Flag{"resume", 0, Takes::optional, "auto|keep|never", "keep", kRender, true,
            "a stopped render continues from the checkpoint next to its picture (auto); --resume alone, or "
            "keep, also keeps the checkpoint of a finished picture, to which a larger --spp adds samples; "

@@ -18,17 +18,8 @@ namespace {
 
 void open(Session& session, const Arguments& arguments, int frame) {
   std::vector<Choice> choices = arguments.choices;
-  choices.push_back({"time", toText(frame / arguments.framesPerSecond), {}});
+  choices.push_back(momentOf(arguments, frame));
   session.open(arguments.files[0], choices, arguments.strict);
-}
-
-/// One exposure for all frames, where it is automatic: that of the first one.
-std::vector<Choice> exposureOfAll(const Arguments& arguments) {
-  Session first;
-  open(first, arguments, arguments.frames.front());
-  if (!first.settings().autoExposure) return {};
-  first.build();
-  return {{"auto-exposure", "off", {}}, {"exposure", toText(first.settings().exposure), {}}};
 }
 
 /// Is every file of the frame there, made with these settings?
@@ -71,6 +62,22 @@ std::string span(const std::string& pattern, const std::vector<int>& frames) {
 
 }  // namespace
 
+Choice momentOf(const Arguments& arguments, int frame) {
+  for (const Choice& choice : arguments.choices)
+    if (choice.option == "time")
+      throw Error(Fault::usage, "--frames and --time cannot be given together",
+                  "a frame shows the moment of its number divided by --fps");
+  return {"time", toText(frame / arguments.framesPerSecond), {}};
+}
+
+std::vector<Choice> exposureOfAll(const Arguments& arguments) {
+  Session first;
+  open(first, arguments, arguments.frames.front());
+  if (!first.settings().autoExposure) return {};
+  first.build();
+  return {{"auto-exposure", "off", {}}, {"exposure", toText(first.settings().exposure), {}}};
+}
+
 std::string frameName(const std::string& pattern, int frame) {
   const std::size_t last = pattern.rfind('#');
   if (last == std::string::npos) return pattern;
@@ -88,10 +95,6 @@ int renderFrames(const Arguments& given, const std::string& pattern, const Conso
   };
   pictureFormatFor(pattern);
   Arguments arguments = given;
-  for (const Choice& choice : arguments.choices)
-    if (choice.option == "time")
-      throw Error(Fault::usage, "--frames and --time cannot be given together",
-                  "a frame shows the moment of its number divided by --fps");
   const std::string& scene = arguments.files[0];
   const auto neverChanges = [&] {
     Messages toldLater;

@@ -14,6 +14,7 @@
 #include "cli/frames.h"
 #include "cli/help.h"
 #include "cli/metric_text.h"
+#include "cli/parts.h"
 #include "cli/render_steps.h"
 #include "cli/scene_facts.h"
 #include "cli/terminal.h"
@@ -36,12 +37,6 @@ std::string outputName(const Arguments& arguments) {
                 "two names for the picture: \"" + arguments.output + "\" and \"" + files[1] + "\"");
   if (files.size() == 2) return files[1];
   return arguments.output;
-}
-
-/// The file as named, or where the scene wants its picture, or its name with .png in the current folder.
-std::string outputFor(const Scene& scene, const std::string& named) {
-  if (!named.empty()) return named;
-  return !scene.picture.empty() ? scene.picture : fs::path(scene.file).stem().string() + ".png";
 }
 
 /// Where no scene was meant but a command or a flag, that is what to tell, before anything about the words
@@ -70,6 +65,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
 
   if (!arguments.files.empty()) checkIsScene(arguments.files[0]);
   const std::string named = outputName(arguments);
+  if (arguments.part > 0) return renderPart(arguments, named, console);
   if (!arguments.frames.empty()) {
     const std::string frames = fs::path(arguments.files[0]).stem().string() + ".####.png";
     return renderFrames(arguments, named.empty() ? frames : named, console);
@@ -78,7 +74,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   Signals signals;
   Session session;
   session.open(arguments.files[0], arguments.choices, arguments.strict);
-  const std::string output = outputFor(session.scene(), named);
+  const std::string output = pictureFor(session.scene(), named);
   checkPlaces(session, output);
   signals.preparingBegins();
   try {

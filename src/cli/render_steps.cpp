@@ -19,13 +19,18 @@
 namespace trace::cli {
 namespace {
 
+/// The checkpoint of the picture, or of the part of it that the session renders.
+Checkpoint checkpointOf(const Session& session, const PictureFiles& files) {
+  return {files.path(), session.metadata(), session.settings(), programText(), session.film().share()};
+}
+
 /// Fills the session's film from the checkpoint, if it is of the same picture, and tells.
 void goOnFrom(Checkpoint& checkpoint, Session& session, const Arguments& arguments, const Console& console,
               Progress& progress, const Part& part) {
   if (checkpoint.load(session.film())) {
     const Film& film = session.film();
-    const double share =
-        static_cast<double>(film.samplesDone()) / static_cast<double>(film.tiles() * film.waves().back().end);
+    const double share = static_cast<double>(film.samplesDone()) /
+                         static_cast<double>(film.ownTiles() * film.waves().back().end);
     progress.beginsAfter((static_cast<double>(part.before) + film.shareDone()) /
                          static_cast<double>(part.all));
     console.line(LogLevel::info, "continuing from " + checkpoint.path() + ", " +
@@ -54,6 +59,11 @@ std::string pixelsText(const Size& size) {
 }
 
 }  // namespace
+
+std::string pictureFor(const Scene& scene, const std::string& named) {
+  if (!named.empty()) return named;
+  return !scene.picture.empty() ? scene.picture : std::filesystem::path(scene.file).stem().string() + ".png";
+}
 
 void checkPlaces(const Session& session, const std::string& output) {
   for (const Output& file : outputs(output, session.settings())) {
@@ -86,7 +96,7 @@ void checkOutputs(const Session& session, const std::string& output, const Conso
 RenderResult renderPictureWatched(Session& session, const Arguments& arguments, Signals& signals,
                                   const Console& console, Progress& progress, PictureFiles& files,
                                   const Part& part) {
-  Checkpoint checkpoint(files.path(), session.metadata(), session.settings());
+  Checkpoint checkpoint = checkpointOf(session, files);
   if (arguments.resume != Resume::never) goOnFrom(checkpoint, session, arguments, console, progress, part);
   const double every = session.settings().checkpointEvery;
   RenderResult result;
@@ -105,7 +115,7 @@ RenderResult renderPictureWatched(Session& session, const Arguments& arguments, 
 
 std::string settleCheckpoint(const Session& session, const RenderResult& result, const Arguments& arguments,
                              const PictureFiles& files) {
-  Checkpoint checkpoint(files.path(), session.metadata(), session.settings());
+  Checkpoint checkpoint = checkpointOf(session, files);
   if (result.end != End::finished) {
     const bool never = arguments.resume == Resume::never;
     if (!checkpoint.exists()) return "";
@@ -117,7 +127,7 @@ std::string settleCheckpoint(const Session& session, const RenderResult& result,
 }
 
 void reportOldCheckpoints(const Session& session, const PictureFiles& files, const Console& console) {
-  const auto others = Checkpoint(files.path(), session.metadata(), session.settings()).others();
+  const auto others = checkpointOf(session, files).others();
   if (others.empty()) return;
   std::error_code ignored;
   std::uintmax_t bytes = 0;
@@ -249,7 +259,7 @@ SavedPicture save(Session& session, RenderResult& result, const Arguments& argum
   const BudgetScope unlimited(nullptr);
   bool kept = !finished;  // then it has a checkpoint, if there are to be any
   if (finished && session.settings().checkpointEvery > 0) {
-    Checkpoint checkpoint(files.path(), session.metadata(), session.settings());
+    Checkpoint checkpoint = checkpointOf(session, files);
     kept = saveCheckpoint(checkpoint, session.film(), progress, console);
   }
   progress.clear();

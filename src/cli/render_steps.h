@@ -14,6 +14,10 @@
 
 namespace trace::cli {
 
+/// The picture's file as named, or where the scene wants it, or the scene's name with .png in the current
+/// folder.
+std::string pictureFor(const Scene& scene, const std::string& named);
+
 /// Throws Error unless all files of the render can be written, without a loss of what the scene is made of.
 void checkPlaces(const Session& session, const std::string& output);
 

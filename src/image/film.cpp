@@ -111,9 +111,16 @@ bool Film::has(std::int64_t tile, std::size_t wave) const {
   return wave < state.waves;
 }
 
+std::int64_t Film::ownTiles() const {
+  std::int64_t own = 0;
+  for (std::int64_t i = 0; i < tiles(); ++i) own += owns(i);
+  return own;
+}
+
 std::int64_t Film::samplesDone() const {
   std::int64_t done = 0;
   for (std::int64_t i = 0; i < tiles(); ++i) {
+    if (!owns(i)) continue;
     const TileState& state = states_[static_cast<std::size_t>(i)];
     const std::lock_guard lock(state.mutex);
     if (state.waves > 0) done += waves_[state.waves - 1].end;
@@ -123,13 +130,14 @@ std::int64_t Film::samplesDone() const {
 
 double Film::shareDone() const {
   const int all = waves_.back().end;
-  const double samples = static_cast<double>(samplesDone()) / (static_cast<double>(tiles()) * all);
+  const double samples = static_cast<double>(samplesDone()) / (static_cast<double>(ownTiles()) * all);
   if (noiseTarget() == 0) return samples;
   constexpr double kLookedAt = 1 << 16;  // pixels: enough for a guess
   const double pixels = static_cast<double>(width_) * height_;
   const int step = std::max(1, static_cast<int>(std::sqrt(pixels / kLookedAt)));
   double done = 0, likely = 0, judged = 0, unknown = 0;
   for (std::int64_t i = 0; i < tiles(); ++i) {
+    if (!owns(i)) continue;
     const TileState& state = states_[static_cast<std::size_t>(i)];
     const std::lock_guard lock(state.mutex);
     const bool isWhole = state.waves == waves_.size();
@@ -155,6 +163,7 @@ double Film::shareDone() const {
 
 bool Film::complete() const {
   for (std::int64_t i = 0; i < tiles(); ++i) {
+    if (!owns(i)) continue;
     const TileState& state = states_[static_cast<std::size_t>(i)];
     const std::lock_guard lock(state.mutex);
     if (state.waves < waves_.size()) return false;

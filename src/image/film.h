@@ -162,6 +162,13 @@ struct Halves {
   std::vector<double> share;     ///< share of the first half; 0 if one half has none
 };
 
+/// One of `count` shares of a film's tiles, for one of several machines: number `number` from 0 on. Tiles
+/// side by side belong to different ones, so that all shares take about as long.
+struct TileShare {
+  int number = 0, count = 1;
+  bool operator==(const TileShare&) const = default;
+};
+
 /// A saved film has more samples than are asked for.
 struct TooManySamples : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -200,10 +207,20 @@ class Film {
   /// The halves of what is there. From any thread while others add.
   Halves halves() const;
 
+  /// From now on only the tiles of a share, not of more shares than there are tiles, are rendered and saved.
+  /// Before anything is added; not where pixels are divided.
+  void limitTo(const TileShare& share) { share_ = share; }
+  const TileShare& share() const { return share_; }
+  /// Whether the tile is to be rendered here: of a film that is not limited, each is.
+  bool owns(std::int64_t tile) const { return isIn(share_, tile); }
+  std::int64_t ownTiles() const;
+
   int width() const { return width_; }
   int height() const { return height_; }
   std::int64_t tiles() const { return std::int64_t{columns_} * rows_; }
   Tile tile(std::int64_t index) const;
+  /// The index of the tile that the pixel lies in.
+  std::int64_t tileAt(int x, int y) const { return std::int64_t{y / tileSize_} * columns_ + x / tileSize_; }
   const std::vector<Wave>& waves() const { return waves_; }
   std::size_t layers() const { return layers_.size(); }
 
@@ -220,7 +237,7 @@ class Film {
   void add(std::int64_t tile, std::size_t wave, TileSamples samples);
   /// Whether it has them, and those of all waves before.
   bool has(std::int64_t tile, std::size_t wave) const;
-  /// Samples of tiles that are there: the sum over all tiles of what each pixel has, or could have.
+  /// Samples of tiles that are there: the sum over all own tiles of what each pixel has, or could have.
   std::int64_t samplesDone() const;
   /// The share of the work that is done: of the samples, or, where pixels stop for an error, of those that it
   /// is likely to take, since an error falls with the square root of their number. From any thread.
@@ -234,10 +251,15 @@ class Film {
   /// checked, so that any bytes do no harm. Throws TooManySamples, or std::runtime_error with the reason if
   /// they do not fit; the film is then blank.
   void restore(std::string_view bytes);
+  /// Adds the tiles and splats that saved() gave of a film of the same size, layers and samples that was
+  /// limited to the share and is complete: with all shares, in any order, this film has the bits of one that
+  /// was rendered whole. The bytes are not trusted, as with restore(). Throws std::runtime_error with the
+  /// reason if they do not fit; the film is then blank.
+  void merge(std::string_view bytes, const TileShare& share);
   /// Takes away all samples.
   void clear();
 
-  /// All waves of all tiles are there.
+  /// All waves of all own tiles are there.
   bool complete() const;
 
   /// The mean of the pixel's samples, without what others have brought there. While nobody adds.
@@ -280,6 +302,11 @@ class Film {
   /// Samples change halves in blocks of four, of which each fills the pixel evenly: even and odd ones of most
   /// generators lie on two sides of it.
   static bool isOfFirstHalf(int sample) { return (sample & 4) == 0; }
+  bool isIn(const TileShare& share, std::int64_t tile) const {
+    // Where rows have as many tiles of each share, each row begins with another one: no share is a column.
+    const std::int64_t shift = columns_ % share.count == 0 ? tile / columns_ : 0;
+    return (tile + shift) % share.count == share.number;
+  }
   void sum(const Wave& wave, const TileSamples& samples);
   void putCorners(std::int64_t tile, std::size_t level, TileSamples samples);
   /// Calls use(x, y, levels) for the pixels of every tile that has a wave: how many levels of corners are
@@ -299,6 +326,7 @@ class Film {
 
   int width_, height_, tileSize_, columns_, rows_;
   double noise_;
+  TileShare share_;
   std::vector<Wave> waves_;
   HugeVector<PixelSum> pixels_;
   std::vector<Layer> layers_;

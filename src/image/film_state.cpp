@@ -1,5 +1,5 @@
-// A film as bytes and back, so that a render can continue after its process ended: Film::saved,
-// Film::restore.
+// A film as bytes and back, so that a render can continue after its process ended, or on several machines:
+// Film::saved, Film::restore, Film::merge.
 //
 // Numbers stand as they do in memory, so that the same machine, or one like it, continues with the same bits.
 //
@@ -84,8 +84,7 @@ class FilmState {
   }
   /// Throws unless the pixel of a tile with that many waves has the samples of all of them, or was left out,
   /// or, where pixels stop for an error, stopped after one of them.
-  static void checkTaken(const Film& film, const PixelSum& pixel, std::size_t waves) {
-    const std::span<const Wave> there(film.waves_.data(), waves);
+  static void checkTaken(const Film& film, const PixelSum& pixel, std::span<const Wave> there) {
     const auto endsThere = [&](const Wave& wave) { return wave.end == pixel.taken_; };
     const auto possible = film.noise_ > 0 ? there : there.last(1);
     if (pixel.taken_ != 0 && std::none_of(possible.begin(), possible.end(), endsThere))
@@ -116,6 +115,20 @@ class FilmState {
         if (part < -SplatPlane::kLimit || part > SplatPlane::kLimit)
           throw std::runtime_error("more light has landed in a pixel than its paths can bring");
     }
+  }
+
+  static void add(SplatPlane& to, const SplatPlane& splats) {
+    constexpr SplatPlane::Whole kMost = SplatPlane::kLimit / 2;  // two such sums are one that is read again
+    const auto isMuch = [](SplatPlane::Whole part) { return part < -kMost || part > kMost; };
+    to.paths_ += splats.paths_;
+    for (std::size_t i = 0; i < to.sums_.size(); ++i)
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        SplatPlane::Whole& sum = to.sums_[i][channel];
+        const SplatPlane::Whole more = splats.sums_[i][channel];
+        if (isMuch(sum) || isMuch(more))
+          throw std::runtime_error("more light has landed in a pixel than its paths can bring");
+        sum += more;
+      }
   }
 
   template <class T>
@@ -236,8 +249,9 @@ class FilmState {
     for (std::int64_t i = 0; i < film.tiles(); ++i) {
       const Film::TileState& state = film.states_[static_cast<std::size_t>(i)];
       const std::lock_guard lock(state.mutex);
-      to.put(static_cast<std::uint32_t>(state.waves));
-      if (state.waves == 0) continue;
+      const std::size_t there = film.owns(i) ? state.waves : 0;
+      to.put(static_cast<std::uint32_t>(there));
+      if (there == 0) continue;
       const Tile area = film.tile(i);
       for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
@@ -250,9 +264,8 @@ class FilmState {
     return std::move(to.bytes());
   }
 
-  /// Throws with the film half changed.
-  static void restore(Film& film, std::string_view bytes) {
-    Reader from(bytes);
+  /// The waves of what saved() gave of a film like this one, from its start.
+  static std::vector<Wave> takeHead(Reader& from, const Film& film) {
     from.expect(kMark, "it was written by another kind of machine");
     from.expect(film.width_, "it is of another size");
     from.expect(film.height_, "it is of another size");
@@ -266,6 +279,28 @@ class FilmState {
       waves.push_back({first, end});
     }
     if (waves.empty()) throw std::runtime_error("it has no samples");
+    return waves;
+  }
+
+  /// The pixels of a tile that has these waves.
+  static void takeTile(Reader& from, Film& film, std::int64_t tile, std::span<const Wave> there) {
+    const Tile area = film.tile(tile);
+    for (int y = area.y0; y < area.y1; ++y)
+      for (int x = area.x0; x < area.x1; ++x) {
+        PixelSum& pixel = film.pixels_[film.index(x, y)];
+        take(from, pixel);
+        checkTaken(film, pixel, there);
+        if (film.noise_ > 0) pixel.firstError_ = from.take<float>();
+        if (!(pixel.firstError_ >= 0)) throw std::runtime_error("an error is negative or no number");
+        for (Film::Layer& layer : film.layers_) layer.sums.at(x, y) = from.take<Color>();
+        if (film.keepsHalves()) take(from, film.first_[film.index(x, y)]);
+      }
+  }
+
+  /// Throws with the film half changed.
+  static void restore(Film& film, std::string_view bytes) {
+    Reader from(bytes);
+    std::vector<Wave> waves = takeHead(from, film);
     if (film.corners_) {
       if (waves.size() != film.waves_.size() || waves.back().end != film.waves_.back().end)
         throw std::runtime_error("its pixels are divided more or less often");
@@ -289,17 +324,43 @@ class FilmState {
         throw TooManySamples("it has more samples a pixel than the " + std::to_string(asked) +
                              " that are asked for");
       if (state.waves == 0) continue;
-      const Tile area = film.tile(i);
-      for (int y = area.y0; y < area.y1; ++y)
-        for (int x = area.x0; x < area.x1; ++x) {
-          PixelSum& pixel = film.pixels_[film.index(x, y)];
-          take(from, pixel);
-          checkTaken(film, pixel, state.waves);
-          if (film.noise_ > 0) pixel.firstError_ = from.take<float>();
-          if (!(pixel.firstError_ >= 0)) throw std::runtime_error("an error is negative or no number");
-          for (Film::Layer& layer : film.layers_) layer.sums.at(x, y) = from.take<Color>();
-          if (film.keepsHalves()) take(from, film.first_[film.index(x, y)]);
-        }
+      if (!film.owns(i)) throw std::runtime_error("it has a tile of another part");
+      takeTile(from, film, i, {film.waves_.data(), state.waves});
+    }
+    if (!from.atEnd()) throw std::runtime_error("it continues where it should end");
+  }
+
+  /// Throws with the film half changed.
+  static void merge(Film& film, std::string_view bytes, const TileShare& share) {
+    if (share.count == 1) {
+      restore(film, bytes);
+      if (!film.complete()) throw std::runtime_error("it is not finished");
+      return;
+    }
+    if (film.corners_) throw std::runtime_error("its pixels are divided");
+    Reader from(bytes);
+    const std::vector<Wave> waves = takeHead(from, film);
+    if (const int has = waves.back().end, asked = film.waves_.back().end; has != asked)
+      throw std::runtime_error("it has " + std::to_string(has) + " samples a pixel and not " +
+                               std::to_string(asked));
+    from.expect(static_cast<std::uint8_t>(film.takesSplats()), "it was made in another way");
+    if (film.takesSplats()) {
+      SplatPlane splats(film.width_, film.height_);
+      take(from, splats);
+      constexpr std::int64_t kMostPaths = std::int64_t{1} << 62;
+      if (splats.paths_ > kMostPaths - film.splats_->paths_)
+        throw std::runtime_error("its number of paths makes no sense");
+      add(*film.splats_, splats);
+    }
+    for (std::int64_t i = 0; i < film.tiles(); ++i) {
+      const bool expected = film.isIn(share, i);
+      if (takeWaves(from, waves.size()) != (expected ? waves.size() : 0))
+        throw std::runtime_error("it has other tiles than this part of the picture");
+      if (!expected) continue;
+      std::size_t& there = film.states_[static_cast<std::size_t>(i)].waves;
+      if (there > 0) throw std::runtime_error("another part has brought its tiles already");
+      takeTile(from, film, i, waves);
+      there = film.waves_.size();
     }
     if (!from.atEnd()) throw std::runtime_error("it continues where it should end");
   }
@@ -324,6 +385,16 @@ void Film::restore(std::string_view bytes) {
   const std::vector<Wave> before = waves_;
   try {
     FilmState::restore(*this, bytes);
+  } catch (...) {
+    FilmState::clear(*this, before);
+    throw;
+  }
+}
+
+void Film::merge(std::string_view bytes, const TileShare& share) {
+  const std::vector<Wave> before = waves_;
+  try {
+    FilmState::merge(*this, bytes, share);
   } catch (...) {
     FilmState::clear(*this, before);
     throw;

@@ -21,9 +21,9 @@ class Checkpoint {
  public:
   /// For the picture of that file, which has these words (Session::metadata()). Whatever changes a sample
   /// counts, and so do the number of samples, unless more can be added to them, and the program
-  /// (programText()).
+  /// (programText()). Of a part of the picture, that of another one is of another picture.
   Checkpoint(const std::string& picture, const Metadata& metadata, const Settings& settings,
-             const std::string& program = programText());
+             const std::string& program = programText(), const TileShare& share = {});
 
   /// Fills the film from the first file that fits, if there is one. Files are not trusted: whatever stands in
   /// them does no harm.

@@ -151,8 +151,7 @@ void Session::open(Scene scene, const Settings& settings, SceneAt sceneAt) {
   fingerprint_.clear();
 }
 
-void Session::build(const Session* before) {
-  const Stopwatch watch;
+void Session::compileWorld(const Session* before) {
   const Size picture = size();
   checkMemory("a picture", picture, bytesPerPixel(settings_), settings_, photonBytes(settings_));
   readSurroundings(scene_, settings_, pictureLimits(settings_), messages_,
@@ -163,14 +162,31 @@ void Session::build(const Session* before) {
   } else {
     world_.emplace(compile(scene_, settings_, messages_));
   }
+}
+
+void Session::prepareFilm() {
+  messages_.throwIfFailed(strict_);
+  measuredExposure_ = settleExposure(*world_, settings_);
+  const Size picture = size();
+  film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
+}
+
+void Session::build(const Session* before) {
+  const Stopwatch watch;
+  compileWorld(before);
   buildMoments();
   warnOfSettings(scene_, settings_, *world_, messages_);
   warnOfEmptyMedia(scene_, messages_);
   warnOfWrongLinks(scene_, messages_);
   warnOfMissingCaustics(scene_, settings_, *world_, messages_);
-  messages_.throwIfFailed(strict_);
-  measuredExposure_ = settleExposure(*world_, settings_);
-  film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
+  prepareFilm();
+  phases_.push_back(watch.stop("build"));
+}
+
+void Session::buildToFinish() {
+  const Stopwatch watch;
+  compileWorld(nullptr);
+  prepareFilm();
   phases_.push_back(watch.stop("build"));
 }
 

@@ -61,6 +61,9 @@ class Session {
   /// Builds the World and makes the film. Throws Error; Error(Fault::limit) if memory will not do. What has
   /// not changed since a session built before is shared with it.
   void build(const Session* before = nullptr);
+  /// Makes what turns samples that others took into the picture: as build(), but nothing that traces it, such
+  /// as photons.
+  void buildToFinish();
   const World& world() const { return *world_; }
   /// While the shutter is open; one where it is not. After build().
   std::span<const Moment> moments() const { return moments_; }
@@ -109,6 +112,8 @@ class Session {
   Real measuredExposure() const { return measuredExposure_; }
 
  private:
+  void compileWorld(const Session* before);
+  void prepareFilm();
   void buildMoments();
 
   Scene scene_;

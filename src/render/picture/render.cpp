@@ -50,12 +50,14 @@ class TileRenderer {
 
   TileSamples take(std::int64_t tile, const Wave& wave) {
     const BudgetScope scope(&budget_);
-    TileSamples samples{.area = intersection(film_.tile(tile), area_),
+    const bool own = film_.owns(tile);
+    TileSamples samples{.area = own ? intersection(film_.tile(tile), area_) : Tile{0, 0, 0, 0},
                         .colors = {},
                         .layers = std::vector<std::vector<Color>>(passes_.size())};
-    chains_           ? takeChain(tile, wave, samples)
-    : film_.corners() ? takeCorners(wave, samples)
-                      : takePixels(tile, wave, samples);
+    if (own)
+      chains_           ? takeChain(tile, wave, samples)
+      : film_.corners() ? takeCorners(wave, samples)
+                        : takePixels(tile, wave, samples);
     const bool isFirstJudged = wave.first < PixelSum::kFewest && wave.end >= PixelSum::kFewest;
     if (isFirstJudged && film_.noiseTarget() > 0) lookBeside(tile, wave, samples);
     return samples;
@@ -105,7 +107,8 @@ class TileRenderer {
       }
   }
 
-  /// Pixels of the tile that lie beside the area, so that those in it stop as they do in the whole picture.
+  /// Pixels of the tile that lie beside those that are rendered, so that these stop as they do in the whole
+  /// picture.
   void lookBeside(std::int64_t number, const Wave& wave, TileSamples& samples) {
     if (area_.x0 >= area_.x1 || area_.y0 >= area_.y1) return;
     const Tile tile =
@@ -113,9 +116,17 @@ class TileRenderer {
     tracer_.collect(nullptr);
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
-        if (isIn(area_, x, y)) continue;
+        if (isRendered(x, y) || !isBesideRendered(x, y)) continue;
         samples.beside.push_back({x, y, firstErrorOf(tracer_, x, y, wave.end)});
       }
+  }
+
+  bool isRendered(int x, int y) const { return isIn(area_, x, y) && film_.owns(film_.tileAt(x, y)); }
+  bool isBesideRendered(int x, int y) const {
+    for (int v = y - 1; v <= y + 1; ++v)
+      for (int u = x - 1; u <= x + 1; ++u)
+        if (isRendered(u, v)) return true;
+    return false;
   }
 
   /// Those of the wave's level that are to be looked at.
@@ -223,13 +234,16 @@ RenderResult render(std::span<const Moment> moments, const Settings& settings, F
   const int threads = settings.threads > 0 ? settings.threads : hardwareThreads();
   std::vector<std::unique_ptr<TileRenderer>> workers(static_cast<std::size_t>(threads));
   const std::vector<Wave>& waves = film.waves();
+  std::vector<std::int64_t> tiles;  // own ones, and where pixels stop for an error all: lookBeside()
+  for (std::int64_t i = 0; i < film.tiles(); ++i)
+    if (film.owns(i) || film.noiseTarget() > 0) tiles.push_back(i);
   std::size_t firstWave = 0;  // first wave of the current chunks
   const auto waveOf = [&](std::int64_t chunk) {
-    return firstWave + static_cast<std::size_t>(chunk / film.tiles());
+    return firstWave + static_cast<std::size_t>(chunk / std::ssize(tiles));
   };
   std::optional<Metropolis> chains;
   const auto takeChunk = [&](std::int64_t chunk, int worker) {
-    const std::int64_t tile = chunk % film.tiles();
+    const std::int64_t tile = tiles[static_cast<std::size_t>(chunk % std::ssize(tiles))];
     const std::size_t wave = waveOf(chunk);
     if (film.has(tile, wave)) return;  // since before
     auto& renderer = workers[static_cast<std::size_t>(worker)];
@@ -238,7 +252,7 @@ RenderResult render(std::span<const Moment> moments, const Settings& settings, F
           std::make_unique<TileRenderer>(moments, settings, film, chains ? &*chains : nullptr, interrupt);
     film.add(tile, wave, renderer->take(tile, waves[wave]));
   };
-  const ChunkSizes samples{film.tiles() * waves.back().end,
+  const ChunkSizes samples{std::ssize(tiles) * waves.back().end,
                            [&](std::int64_t chunk) { return waves[waveOf(chunk)].count(); }};
   RenderResult result;
   bool outOfMemory = false;
@@ -249,7 +263,7 @@ RenderResult render(std::span<const Moment> moments, const Settings& settings, F
     job.before = film.samplesDone();
     const std::ptrdiff_t together = film.adaptive() ? 1 : std::ssize(waves);
     for (; firstWave < waves.size() && !job.cancel; firstWave += static_cast<std::size_t>(together))
-      parallelChunks(film.tiles() * together, threads, job, takeChunk, samples);
+      parallelChunks(std::ssize(tiles) * together, threads, job, takeChunk, samples);
   } catch (const std::bad_alloc&) {
     outOfMemory = true;
     result.failure = "out of memory";
