@@ -223,7 +223,7 @@ int classCommand(const Arguments& arguments, const Console& console, bool asJson
                  .rubric = arguments.rubric.empty() ? Rubric{} : readRubric(arguments.rubric),
                  .results = besidePage(arguments.output, ".results"),
                  .csv = besidePage(arguments.output, ".csv")};
-  if (task.csv == arguments.output || task.results == arguments.output)
+  if (!arguments.output.empty() && (task.csv == arguments.output || task.results == arguments.output))
     throw Error(Fault::usage, "-o: expected a page, such as class.html, found \"" + arguments.output + "\"");
   for (const std::string& file : {arguments.output, task.csv, task.results}) {
     if (!file.empty()) checkWritable(file);
