@@ -103,6 +103,8 @@ struct Arguments {
   bool idiffCodes = false;
   std::string reference;      ///< a folder
   bool renderScenes = false;  ///< --render
+  bool ofClass = false;       ///< --class
+  std::string rubric;         ///< a file; may be empty
   double sceneLimit = 0;      ///< seconds
   bool help = false, helpAll = false, version = false, printDefaults = false;
 };

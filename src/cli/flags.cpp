@@ -372,6 +372,13 @@ std::span<const Flag> flags() {
       Flag{"render", 0, Takes::nothing, "", "", kGrade, false,
            "render the scenes of the folder, with the options given, instead of reading pictures",
            [](Arguments& a, std::string_view) { a.renderScenes = true; }},
+      Flag{"class", 0, Takes::nothing, "", "", kGrade, false,
+           "DIR has a folder for each student: one page of all, a table beside it as .csv, and points",
+           [](Arguments& a, std::string_view) { a.ofClass = true; }},
+      Flag{"rubric", 0, Takes::value, "FILE", "", kGrade, false,
+           "with --class: the points of each scene, and the share that a picture with a mistake keeps; by "
+           "default each scene is worth 1 point",
+           [](Arguments& a, std::string_view value) { a.rubric = value; }},
       Flag{"scene-limit", 0, Takes::value, "SECONDS", "", kGrade, false,
            "a scene that takes longer to render is stopped, and the next one begins; default 0, no limit",
            [](Arguments& a, std::string_view value) { a.sceneLimit = numberOf("scene-limit", value, 0); }},

@@ -3,12 +3,18 @@
 // Keys of the JSON object: folder, reference, passed, stopped (or null), pairs[] of {name, file, verdict,
 // problem, cause (a sentence, or ""), unit, width, height, then each metric by name, null where it is
 // infinite or there is none}, extra[], page (or null).
+//
+// ray grade --class DIR --reference DIR: students by scenes. With -o PAGE.html also PAGE.csv, and
+// PAGE.results, from which a run that was interrupted continues. Keys: folder, reference, possible, stopped
+// (or null), scenes[] of {name, points}, students[] of {name, points, passed, pairs[] of {file, verdict,
+// points, mistakes[], cause, problem}}, page, csv (or null).
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <filesystem>
 #include <thread>
 
-#include "app/compare/grade.h"
+#include "app/compare/class_grade.h"
 #include "app/session/json.h"
 #include "base/budget.h"
 #include "base/file.h"
@@ -154,10 +160,105 @@ class StopKey {
   std::thread thread_;
 };
 
+/// The page's name with another suffix; "" of none.
+std::string besidePage(const std::string& page, const char* suffix) {
+  return page.empty() ? "" : std::filesystem::path(page).replace_extension(suffix).string();
+}
+
+std::string classText(const ClassGrades& grades) {
+  std::vector<Row> rows{{"student", "verdicts", "points"}};
+  std::string below;
+  for (const ClassStudent& student : grades.students) {
+    rows.push_back({student.name,
+                    std::to_string(student.passed) + " of " + std::to_string(student.pairs.size()) +
+                        " within the limits",
+                    numberText(student.total)});
+    for (const GradedPair& pair : student.pairs) {
+      if (passes(pair.verdict)) continue;
+      const std::string& why = pair.cause.empty() ? pair.problem : pair.cause;
+      below += student.name + "/" + pair.name + ": " +
+               (why.empty() ? std::string(verdictText(pair.verdict)) : why.substr(0, why.find('\n'))) + "\n";
+    }
+  }
+  return tableText(rows) + below + counted(grades.students.size(), "student") + ", " +
+         counted(grades.scenes.size(), "scene") + ", " + numberText(grades.possible) + " points\n";
+}
+
+std::string classJson(const ClassTask& task, const ClassGrades& grades) {
+  Json json{{"folder", task.grade.folder},
+            {"reference", task.grade.reference},
+            {"possible", grades.possible},
+            {"stopped", nullptr},
+            {"scenes", Json::list()},
+            {"students", Json::list()},
+            {"page", nullptr},
+            {"csv", nullptr}};
+  if (!grades.stopped.empty()) json["stopped"] = grades.stopped;
+  if (!task.grade.page.empty()) json["page"] = task.grade.page, json["csv"] = task.csv;
+  for (const ClassScene& scene : grades.scenes)
+    json["scenes"].add(Json{{"name", scene.name}, {"points", scene.points}});
+  for (const ClassStudent& student : grades.students) {
+    Json one{{"name", student.name},
+             {"points", student.total},
+             {"passed", student.passed},
+             {"pairs", Json::list()}};
+    for (std::size_t i = 0; i < student.pairs.size(); ++i) {
+      const GradedPair& pair = student.pairs[i];
+      Json mistakes = Json::list();
+      for (const std::string& mistake : pair.mistakes) mistakes.add(mistake);
+      one["pairs"].add(Json{{"file", pair.file},
+                            {"verdict", verdictText(pair.verdict)},
+                            {"points", student.points[i]},
+                            {"mistakes", std::move(mistakes)},
+                            {"cause", pair.cause},
+                            {"problem", pair.problem}});
+    }
+    json["students"].add(std::move(one));
+  }
+  return json.text(2) + "\n";
+}
+
+int classCommand(const Arguments& arguments, const Console& console, bool asJson) {
+  ClassTask task{.grade = taskOf(arguments),
+                 .rubric = arguments.rubric.empty() ? Rubric{} : readRubric(arguments.rubric),
+                 .results = besidePage(arguments.output, ".results"),
+                 .csv = besidePage(arguments.output, ".csv")};
+  if (!arguments.output.empty() && (task.csv == arguments.output || task.results == arguments.output))
+    throw Error(Fault::usage, "-o: expected a page, such as class.html, found \"" + arguments.output + "\"");
+  for (const std::string& file : {arguments.output, task.csv, task.results}) {
+    if (!file.empty()) checkWritable(file);
+    if (!arguments.rubric.empty()) checkDistinct(arguments.rubric, file);
+  }
+  StopKey stop(console);
+  const ClassGrades grades = gradeClass(task);
+  const BudgetScope late(nullptr);  // results are reported, whatever the time
+  if (!arguments.output.empty()) {
+    writeFile(task.csv, classCsv(grades));
+    writeFile(arguments.output, classPage(task, grades));
+  }
+  printResult(asJson ? classJson(task, grades) : classText(grades));
+  const std::size_t all = grades.students.size() * grades.scenes.size();
+  if (!arguments.output.empty())
+    console.line(LogLevel::info, "wrote " + arguments.output + " and " + task.csv + " (" +
+                                     counted(all, "picture") + ", " + std::to_string(grades.computed) +
+                                     " compared now)");
+  if (!grades.stopped.empty()) {
+    console.line(LogLevel::error, "stopped before all was compared: " +
+                                      (stop.pressed() ? "stopped by the user" : grades.stopped) +
+                                      (task.results.empty() ? "" : "; the next run continues"));
+    return stop.pressed() ? kStopped : static_cast<int>(Fault::limit);
+  }
+  const bool allWithin = std::all_of(grades.students.begin(), grades.students.end(),
+                                     [](const auto& s) { return s.passed == s.pairs.size(); });
+  return allWithin ? kDone : kNotAllWithin;
+}
+
 }  // namespace
 
 int gradeCommand(const Arguments& arguments, const Console& console) {
   const bool asJson = chosenFormat(arguments, "grade", kTextOrJson) == "json";
+  if (arguments.ofClass) return classCommand(arguments, console, asJson);
+  if (!arguments.rubric.empty()) throw Error(Fault::usage, "--rubric needs --class");
   const GradeTask task = taskOf(arguments);
   if (!arguments.output.empty()) checkWritable(arguments.output);
   StopKey stop(console);

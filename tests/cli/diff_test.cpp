@@ -295,6 +295,23 @@ TEST_F(Diff, GradeSaysWhatIsWrongWithEachScene) {
     EXPECT_TRUE(contains(r.out, std::string("\nunreadable  ") + name + ".png\n"));
 }
 
+TEST_F(Diff, GradeOfAClassWritesAPageAndATable) {
+  picture("ref/a.png", 0.5), picture("in/ann/deep/A.bmp", 0.5), picture("in/bob/a.png", 0.7);
+  const std::vector<std::string> words{"grade", "--class", "in", "--reference", "ref"};
+  EXPECT_TRUE(contains(run(words).out, "2 students, 1 scene, 1 points\n"));
+  std::vector<std::string> written = words;
+  written.insert(written.end(), {"-o", "class.html"});
+  const Run r = run(written);
+  EXPECT_EQ(r.code, 6);
+  EXPECT_TRUE(contains(r.last, "wrote class.html and class.csv (2 pictures, 2 compared now)"));
+  EXPECT_TRUE(contains(readFile(path("class.csv")), "\r\nann,1,1,1,identical,\r\n"));
+  const std::string page = readFile(path("class.html"));
+  EXPECT_TRUE(contains(run(written).last, "0 compared now"));
+  EXPECT_EQ(readFile(path("class.html")), page);
+  EXPECT_EQ(run({"grade", "in", "--reference", "ref", "--rubric", "x"}).code, 2);
+  EXPECT_EQ(run({"grade", "--class", "in", "--reference", "ref", "-o", "x.csv"}).code, 2);
+}
+
 TEST_F(Diff, GradeReadsNoPipesAndDevices) {
   for (const char* name : {"a", "b", "c"}) picture(std::string("ref/") + name + ".png", 1);
   picture("out/extra.png", 1), picture("out/d.png", 1);

@@ -54,27 +54,6 @@ std::vector<std::string> hiddenFiles(const GradeTask& task, const FolderFiles& r
   return hidden;
 }
 
-LoadedPicture rendered(const std::string& scene, const GradeTask& task, InputFiles& inputs) {
-  Budget limit(budgetOfThread.budget);
-  limit.limitTime(task.sceneLimit);
-  Budget own(&limit);  // the session sets it to the scene's own time limit
-  const BudgetScope scope(&own);
-  Session session;
-  session.open(scene, task.choices, task.strict);
-  inputs = session.scene().inputs;
-  session.build();
-  const RenderResult result = session.renderPicture();
-  if (result.end == End::timeLimit && task.sceneLimit > 0 && limit.seconds() > task.sceneLimit)
-    throw Error(Fault::limit, "it takes longer than the " + toText(task.sceneLimit) + " s of --scene-limit");
-  if (result.end != End::finished)
-    throw Error(Fault::limit,
-                "the render did not finish" + (result.failure.empty() ? "" : ": " + result.failure));
-  const Settings& settings = session.settings();
-  return {fromBytes(toBytes(developed(finished(session.picture(), settings), developmentOf(settings)),
-                            settings.rounding)),
-          true};
-}
-
 std::string encoded(const char* suffix, const Picture& picture) {
   return encodePicture(pictureFormatFor(suffix), picture, Rounding::nearest);
 }
@@ -93,30 +72,16 @@ void addPictures(GradedPair& pair, const PictureDifference& d, double magnify) {
   pair.flipPicture = shown("flip");
 }
 
-void compareInto(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
-  if (pair.file.empty() || pair.verdict == Verdict::unreadable) return;
-  const std::string test = (fs::path(task.folder) / pair.file).string();
-  const std::string reference = (fs::path(task.reference) / pair.name).string();
-  const PictureDifference d =
-      difference(loadPicture(reference), task.renderScenes ? rendered(test, task, inputs) : loadPicture(test),
-                 task.difference);
-  pair.unit = d.unit();
-  pair.width = d.reference.picture.width;
-  pair.height = d.reference.picture.height;
-  pair.verdict = !d.numbers.sameSize      ? Verdict::sizesDiffer
-                 : d.numbers.identical    ? Verdict::identical
-                 : within(d, task.limits) ? Verdict::within
-                                          : Verdict::beyond;
-  if (d.numbers.sameSize)
-    for (const Metric& metric : metrics()) pair.values.push_back(metric.value(d));
-  else
-    pair.problem = "the picture is " + std::to_string(d.test.picture.width) + "x" +
-                   std::to_string(d.test.picture.height) + ", the reference " + std::to_string(pair.width) +
-                   "x" + std::to_string(pair.height);
-  if (!passes(pair.verdict))
-    if (const auto cause = causeOfDifference(d.reference, d.test))
-      pair.cause = causeText(*cause, "the reference", "the picture", d.unit());
-  if (task.keepsPictures) addPictures(pair, d, task.magnify);
+/// The parts of a change by the names that a rubric has for them.
+std::vector<std::string> mistakesOf(const PictureChange& change) {
+  using Curve = PictureChange::Curve;
+  std::vector<std::string> names;
+  const bool scales = change.curve == Curve::scale || change.curve == Curve::lightScale;
+  if (!change.turn.text.empty()) names.emplace_back("flipped");
+  if (!change.channels.text.empty()) names.emplace_back("channels");
+  if (change.curve != Curve::none) names.emplace_back(scales ? "brightness" : "gamma");
+  if (change.right != 0 || change.down != 0) names.emplace_back("shift");
+  return names;
 }
 
 /// In words that follow on the name of the pair.
@@ -127,19 +92,15 @@ std::string problemOf(const Error& error) {
   return error.fault() == Fault::scene ? "cannot be read: " + text : text;
 }
 
-void compareOrNote(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
-  try {
-    compareInto(pair, task, inputs);
-  } catch (const Error& error) {
-    lookAtBudget();  // if the time of all is over, this pair is not at fault
-    pair.values.clear();
-    pair.cause.clear();
-    pair.verdict = Verdict::unreadable;
-    pair.problem = problemOf(error);
-  } catch (const std::bad_alloc&) {
-    pair.verdict = Verdict::unreadable;
-    pair.problem = "not enough memory";
-  }
+void compareInto(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
+  if (pair.file.empty() || pair.verdict == Verdict::unreadable) return;
+  const std::string test = (fs::path(task.folder) / pair.file).string();
+  const std::string reference = (fs::path(task.reference) / pair.name).string();
+  const PictureDifference d =
+      difference(loadPicture(reference),
+                 task.renderScenes ? renderedScene(test, task, inputs) : loadPicture(test), task.difference);
+  judge(pair, d, task.limits);
+  if (task.keepsPictures) addPictures(pair, d, task.magnify);
 }
 
 void addPair(Grades& grades, const fs::path& reference) {
@@ -224,6 +185,64 @@ std::string_view verdictText(Verdict verdict) {
   return kTexts[static_cast<std::size_t>(verdict)];
 }
 
+LoadedPicture renderedScene(const std::string& scene, const GradeTask& task, InputFiles& inputs) {
+  Budget limit(budgetOfThread.budget);
+  limit.limitTime(task.sceneLimit);
+  Budget own(&limit);  // the session sets it to the scene's own time limit
+  const BudgetScope scope(&own);
+  Session session;
+  session.open(scene, task.choices, task.strict);
+  inputs = session.scene().inputs;
+  session.build();
+  const RenderResult result = session.renderPicture();
+  if (result.end == End::timeLimit && task.sceneLimit > 0 && limit.seconds() > task.sceneLimit)
+    throw Error(Fault::limit, "it takes longer than the " + toText(task.sceneLimit) + " s of --scene-limit");
+  if (result.end != End::finished)
+    throw Error(Fault::limit,
+                "the render did not finish" + (result.failure.empty() ? "" : ": " + result.failure));
+  const Settings& settings = session.settings();
+  return {fromBytes(toBytes(developed(finished(session.picture(), settings), developmentOf(settings)),
+                            settings.rounding)),
+          true};
+}
+
+void judge(GradedPair& pair, const PictureDifference& d, const std::vector<Limit>& limits) {
+  pair.unit = d.unit();
+  pair.width = d.reference.picture.width;
+  pair.height = d.reference.picture.height;
+  pair.verdict = !d.numbers.sameSize   ? Verdict::sizesDiffer
+                 : d.numbers.identical ? Verdict::identical
+                 : within(d, limits)   ? Verdict::within
+                                       : Verdict::beyond;
+  if (d.numbers.sameSize)
+    for (const Metric& metric : metrics()) pair.values.push_back(metric.value(d));
+  else
+    pair.problem = "the picture is " + std::to_string(d.test.picture.width) + "x" +
+                   std::to_string(d.test.picture.height) + ", the reference " + std::to_string(pair.width) +
+                   "x" + std::to_string(pair.height);
+  if (passes(pair.verdict)) return;
+  const auto cause = causeOfDifference(d.reference, d.test);
+  if (!cause) return;
+  pair.cause = causeText(*cause, "the reference", "the picture", d.unit());
+  pair.mistakes = mistakesOf(cause->change);
+}
+
+void judgeOrNote(GradedPair& pair, const std::function<void()>& compare) {
+  try {
+    compare();
+  } catch (const Error& error) {
+    lookAtBudget();  // if the time of all is over, this pair is not at fault
+    pair.values.clear();
+    pair.cause.clear();
+    pair.mistakes.clear();
+    pair.verdict = Verdict::unreadable;
+    pair.problem = problemOf(error);
+  } catch (const std::bad_alloc&) {
+    pair.verdict = Verdict::unreadable;
+    pair.problem = "not enough memory";
+  }
+}
+
 Grades grade(const GradeTask& task) {
   Grades grades;
   FolderFiles files = filesBelow(task.folder, task.renderScenes ? sceneKind : pictureKind);
@@ -252,7 +271,8 @@ Grades grade(const GradeTask& task) {
                    [&](std::int64_t i, int) {
                      work.reached(job.done);
                      const auto index = static_cast<std::size_t>(i);
-                     compareOrNote(grades.pairs[index], task, inputs[index]);
+                     judgeOrNote(grades.pairs[index],
+                                 [&] { compareInto(grades.pairs[index], task, inputs[index]); });
                      reached[index] = true;
                    });
   } catch (const Error& error) {

@@ -1,10 +1,12 @@
 // A folder of pictures, or of scenes, compared with a folder of reference pictures: what `ray grade` does.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "app/compare/difference.h"
+#include "scene/input_files.h"
 #include "scene/options.h"
 
 namespace trace {
@@ -33,7 +35,8 @@ struct GradedPair {
   Verdict verdict = Verdict::missing;
   std::string problem;  ///< why it could not be compared; may be several lines
   std::string cause;    ///< one sentence, if one change of the whole picture explains a failure
-  std::string unit;     ///< "levels" or "values"
+  std::vector<std::string> mistakes{};  ///< the parts of that cause: "flipped", "gamma" (mistakeNames())
+  std::string unit;                     ///< "levels" or "values"
   int width = 0, height = 0;
   std::vector<double> values;  ///< values of metrics(), in their order; empty if it could not be compared
   /// Picture files: PNG for the first two, JPEG for the others; empty where there is none.
@@ -51,6 +54,16 @@ struct Grades {
 /// with one pair is its verdict. When the time of all is over, the pairs that are left are not reached.
 /// Throws Error when a folder cannot be read or there is no reference picture.
 Grades grade(const GradeTask& task);
+
+/// Fills in the comparison of two pictures: numbers, verdict and, of a failure, the cause.
+void judge(GradedPair& pair, const PictureDifference& difference, const std::vector<Limit>& limits);
+
+/// Calls `compare`; what it throws is the verdict on the pair, unless the time of all is over.
+void judgeOrNote(GradedPair& pair, const std::function<void()>& compare);
+
+/// The picture of a scene of the task's folder, rendered within the limits of the task. `inputs` receives the
+/// files that it read. Throws Error.
+LoadedPicture renderedScene(const std::string& scene, const GradeTask& task, InputFiles& inputs);
 
 /// One self-contained HTML page: a table, worst first, with the pictures in it, and a viewer to swipe between
 /// them. Needs nothing but a browser, works offline, by keyboard, in light and dark.

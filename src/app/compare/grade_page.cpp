@@ -4,17 +4,13 @@
 #include <cstdio>
 
 #include "app/compare/grade.h"
-#include "base/base64.h"
+#include "app/compare/html.h"
 #include "base/text.h"
 
 namespace trace {
 namespace {
 
 constexpr std::string_view kStyle = R"css(
-:root { color-scheme: light dark; --ground: #fbfbfa; --ink: #1c1c1a; --faint: #6b6b66; --line: #d9d9d4;
-  --card: #fff; --bad: #b3261e; --good: #1b6e3a; --accent: #0b57b7; }
-@media (prefers-color-scheme: dark) { :root { --ground: #161615; --ink: #ececea; --faint: #a0a09a; --line: #3a3a37;
-  --card: #1f1f1d; --bad: #ff8a80; --good: #7ddb9b; --accent: #8ab8ff; } }
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 1.5rem; max-width: 90rem; background: var(--ground); color: var(--ink);
   font: 15px/1.45 system-ui, sans-serif; }
@@ -168,23 +164,6 @@ constexpr std::string_view kViewer = R"html(<dialog aria-label="compare the pict
 </dialog>
 )html";
 
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 std::string shortNumber(double value) {
   if (std::isinf(value)) return "\u221e";
   char text[40];
@@ -195,7 +174,7 @@ std::string shortNumber(double value) {
 std::string thumbnail(const char* kind, const char* type, const std::string& bytes, const std::string& name) {
   if (bytes.empty()) return "";
   return "<img data-kind=\"" + std::string(kind) + "\" alt=\"" + std::string(kind) + " of " + escaped(name) +
-         "\" src=\"data:image/" + std::string(type) + ";base64," + toBase64(bytes) + "\">";
+         "\" src=\"" + dataAddress(type, bytes) + "\">";
 }
 
 std::string summaryText(const GradedPair& pair) {
@@ -247,10 +226,10 @@ std::string gradePage(const GradeTask& task, const Grades& grades) {
   std::string html =
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
-      escaped(title) + "</title>\n<style>" + std::string(kStyle) + "</style></head>\n<body>\n<h1>" +
-      escaped(title) + "</h1>\n<p><b class=\"" + (grades.passed == all ? "good" : "bad") + "\">" +
-      std::to_string(grades.passed) + " of " + std::to_string(all) +
-      "</b> within the limits: " + escaped(limitsText(task)) + "; tolerance " +
+      escaped(title) + "</title>\n<style>" + std::string(kPageColors) + std::string(kStyle) +
+      "</style></head>\n<body>\n<h1>" + escaped(title) + "</h1>\n<p><b class=\"" +
+      (grades.passed == all ? "good" : "bad") + "\">" + std::to_string(grades.passed) + " of " +
+      std::to_string(all) + "</b> within the limits: " + escaped(limitsText(task)) + "; tolerance " +
       toText(task.difference.tolerance) +
       ".</p>\n<p class=\"faint\">Worst first. Thumbnails: reference, result, "
       "difference times " +

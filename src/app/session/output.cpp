@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kSettings = "Settings", *kProgram = "Program", *kDefaults = "defaults", *kPass = "Pass",
-                     *kIncomplete = "Incomplete", *kPartial = ".partial";
+constexpr const char *kSettings = "Settings", *kProgramWord = "Program", *kDefaults = "defaults",
+                     *kPass = "Pass", *kIncomplete = "Incomplete", *kPartial = ".partial";
 /// The group of options that say how a picture is computed, and nothing of what it shows.
 constexpr std::string_view kResources = "Resources";
 /// The group of options that say which pictures lie beside it, and nothing of itself.
@@ -113,7 +113,7 @@ bool isFragmentOf(const Output& output, const Metadata& metadata) {
     const bool incomplete = std::erase_if(stored, [](const auto& word) { return word.first == kIncomplete; });
     Metadata words = wordsOf(output, metadata);
     for (Metadata* of : {&stored, &words})  // another build's part is one of the picture all the same
-      std::erase_if(*of, [](const auto& word) { return word.first == kProgram; });
+      std::erase_if(*of, [](const auto& word) { return word.first == kProgramWord; });
     return incomplete && whatCounts(stored, kPasses) == whatCounts(words, kPasses);
   } catch (const std::exception&) {  // whatever it is, it is not ours
     return false;
@@ -177,7 +177,7 @@ Metadata describe(const Scene& scene, const Settings& settings) {
   return {{"Software", "Trace " TRACE_VERSION},
           {"Title", fs::path(scene.file).filename().string()},
           {kSettings, changed.empty() ? kDefaults : changed},
-          {kProgram, programText()}};
+          {kProgramWord, programText()}};
 }
 
 Picture finished(Picture rendered, const Settings& settings) {

@@ -1,0 +1,369 @@
+#include "app/compare/class_grade.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+
+#include "app/compare/class_results.h"
+#include "app/compare/grade_files.h"
+#include "app/session/output.h"
+#include "app/session/version.h"
+#include "base/budget.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/parallel.h"
+#include "base/read_scope.h"
+#include "base/text.h"
+#include "image/codec.h"
+
+namespace trace {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kThumbnailWidth = 120;  // pixels
+
+/// Means of the pixels that each pixel of the smaller picture covers.
+Picture reduced(const Picture& picture) {
+  if (picture.width <= kThumbnailWidth) return picture;
+  const int width = kThumbnailWidth;
+  const int height = std::max(1, static_cast<int>(std::int64_t{picture.height} * width / picture.width));
+  const auto begin = [](int i, int small, int large) {
+    return static_cast<int>(std::int64_t{i} * large / small);
+  };
+  Picture small(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int left = begin(x, width, picture.width), top = begin(y, height, picture.height);
+      const int right = begin(x + 1, width, picture.width);
+      const int bottom = std::max(top + 1, begin(y + 1, height, picture.height));
+      Color sum;
+      for (int v = top; v < bottom; ++v)
+        for (int u = left; u < right; ++u) sum += picture.at(u, v);
+      small.at(x, y) = sum / (static_cast<double>(right - left) * static_cast<double>(bottom - top));
+    }
+  return small;
+}
+
+std::string thumbnailFile(const Picture& picture) {
+  return encodePicture(pictureFormatFor(".jpg"), reduced(picture), Rounding::nearest);
+}
+
+/// The parts of the path from its end on, in small letters, the first without its suffix.
+std::vector<std::string> partsFromEnd(const std::string& path) {
+  std::vector<std::string> parts;
+  for (const fs::path& part : fs::path(lowerCase(path)).replace_extension()) parts.push_back(part.string());
+  std::reverse(parts.begin(), parts.end());
+  return parts;
+}
+
+std::size_t agreement(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  const std::size_t most = std::min(a.size(), b.size());
+  std::size_t count = 0;
+  while (count < most && a[count] == b[count]) ++count;
+  return count;
+}
+
+/// The student's folder: its files and a hash of all that a scene in it may read.
+struct Submission {
+  std::string name, folder;
+  FolderFiles files;
+  std::uint64_t everything = 0;
+};
+
+std::vector<Submission> submissionsIn(const GradeTask& task) {
+  std::error_code error;
+  std::vector<Submission> all;
+  for (fs::directory_iterator i(task.folder, error), end; !error && i != end; i.increment(error)) {
+    std::error_code unknown;
+    const std::string name = i->path().filename().string();
+    if (name[0] == '.' || name == "__MACOSX" || !i->is_directory(unknown)) continue;
+    if (fs::equivalent(i->path(), task.reference, unknown)) continue;
+    all.push_back({name, i->path().string(), {}, 0});
+  }
+  if (error) throw Error(Fault::io, "cannot read the folder \"" + task.folder + "\": " + error.message());
+  if (all.empty())
+    throw Error(Fault::usage, "expected a folder for each student in \"" + task.folder + "\", found none",
+                "without --class its files are compared");
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return all;
+}
+
+FileKind anyKind(const fs::path&) { return FileKind::wanted; }
+
+/// The hash of the names and bytes of all files below the folder.
+std::uint64_t hashOfFolder(const std::string& folder) {
+  Hash hash;
+  for (const fs::path& file : filesBelow(folder, anyKind).files) {
+    hash.add(file.generic_string());
+    try {
+      hash.add(readFile((folder / file).string()));
+    } catch (const Error&) {
+      lookAtBudget();  // a file that cannot be read is none for a scene either
+    }
+  }
+  return hash.value();
+}
+
+bool liesBelow(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  const fs::path between =
+      fs::weakly_canonical(file, error).lexically_relative(fs::weakly_canonical(folder, error));
+  return !error && !between.empty() && *between.begin() != "..";
+}
+
+/// A reference picture, read once for all students.
+struct Reference {
+  std::string path;
+  std::optional<LoadedPicture> picture;  ///< none if it cannot be read
+  std::string problem;
+  std::uint64_t hash = 0;
+};
+
+class ClassGrader {
+ public:
+  explicit ClassGrader(const ClassTask& task) : task_(task), results_(task.results) {}
+
+  ClassGrades grade() {
+    readReferences();
+    for (Submission& submission : submissionsIn(task_.grade)) students_.push_back(std::move(submission));
+    for (const Submission& student : students_) {
+      ClassStudent& graded = grades_.students.emplace_back();
+      graded.name = student.name;
+      graded.pairs.resize(grades_.scenes.size());
+      for (std::size_t i = 0; i < graded.pairs.size(); ++i) {
+        graded.pairs[i].name = grades_.scenes[i].reference;
+        graded.pairs[i].verdict = Verdict::notReached;
+      }
+    }
+    gradeAll();
+    addPoints();
+    return std::move(grades_);
+  }
+
+ private:
+  void readReferences() {
+    const FolderFiles files = filesBelow(task_.grade.reference, pictureKind);
+    std::map<std::string, std::string> names;
+    for (const fs::path& file : files.files) {
+      ClassScene scene{fs::path(file).replace_extension().generic_string(), file.generic_string(), 1, {}};
+      const auto [known, isNew] = names.emplace(lowerCase(scene.name), scene.reference);
+      if (!isNew)
+        throw Error(Fault::usage, "two reference pictures have one name: \"" + known->second + "\" and \"" +
+                                      scene.reference + "\"");
+      Reference reference;
+      reference.path = (task_.grade.reference / file).string();
+      checkOutputs(reference.path);
+      try {
+        Hash hash;
+        hash.add(readFile(reference.path));
+        reference.hash = hash.value();
+        reference.picture = loadPicture(reference.path);
+        if (task_.grade.keepsPictures) scene.thumbnail = thumbnailFile(reference.picture->picture);
+      } catch (const Error& error) {
+        lookAtBudget();
+        reference.problem = error.messages().front().what;
+      }
+      scene.points = task_.rubric.pointsOf(scene.name);
+      grades_.possible += scene.points;
+      grades_.scenes.push_back(std::move(scene));
+      references_.push_back(std::move(reference));
+    }
+    if (references_.empty())
+      throw Error(Fault::usage, "there is no picture in the folder \"" + task_.grade.reference + "\"");
+  }
+
+  void gradeAll() {
+    Job job;
+    const auto count = static_cast<std::int64_t>(students_.size());
+    Work work("grading the class", count);
+    const int threads = resolve({task_.grade.choices}).threads;
+    const ReadScope scope({}, {task_.grade.reference});
+    optionsHash_ = hashOfOptions();
+    try {
+      parallelChunks(count, task_.grade.renderScenes ? 1 : threads, job, [&](std::int64_t i, int) {
+        work.reached(job.done);
+        gradeStudent(students_[static_cast<std::size_t>(i)], grades_.students[static_cast<std::size_t>(i)]);
+        keepSometimes();
+      });
+    } catch (const Error& error) {
+      if (error.fault() != Fault::limit) throw;
+      grades_.stopped = error.messages().front().what;
+    }
+    const BudgetScope late(nullptr);  // results are kept, whatever the time
+    results_.save(grades_.stopped.empty());
+  }
+
+  /// The hash of all that decides the result of two files.
+  std::uint64_t hashOfOptions() const {
+    const GradeTask& task = task_.grade;
+    std::string text = programText() + "\n" + (task.renderScenes ? "scenes" : "pictures") + " " +
+                       (task.keepsPictures ? "kept" : "") + (task.strict ? " strict" : "");
+    for (double value :
+         {task.difference.tolerance, task.difference.pixelsPerDegree, task.magnify, task.sceneLimit})
+      text += " " + toText(value);
+    for (const Limit& limit : task.limits)
+      text += "\n" + std::string(limit.metric->name) + " " + toText(limit.value);
+    if (task.renderScenes)
+      for (const Choice& choice : task.choices) text += "\n" + choice.option + "=" + choice.value;
+    Hash hash;
+    hash.add(text);
+    return hash.value();
+  }
+
+  void gradeStudent(Submission& student, ClassStudent& graded) {
+    student.files = filesBelow(student.folder, task_.grade.renderScenes ? sceneKind : pictureKind);
+    std::vector<std::string> names, files;
+    for (const ClassScene& scene : grades_.scenes) names.push_back(scene.reference);
+    for (const std::vector<fs::path>* list :
+         {&student.files.files, &student.files.others, &student.files.noFiles})
+      for (const fs::path& file : *list)
+        if (list == &student.files.files || !task_.grade.renderScenes || hasSceneSuffix(file))
+          files.push_back(file.generic_string());
+    if (task_.grade.renderScenes) student.everything = hashOfFolder(student.folder);
+    const std::vector<std::string> assigned = assignSubmissions(names, files);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      GradedPair& pair = graded.pairs[i];
+      pair.file = assigned[i];
+      if (pair.file.empty())
+        pair.verdict = Verdict::missing;
+      else
+        gradePair(student, references_[i], pair);
+    }
+  }
+
+  void gradePair(const Submission& student, const Reference& reference, GradedPair& pair) {
+    const std::string file = (fs::path(student.folder) / pair.file).string();
+    const auto unreadable = [&](std::string why) {
+      pair.verdict = Verdict::unreadable;
+      pair.problem = std::move(why);
+    };
+    if (!reference.picture) return unreadable("the reference cannot be read: " + reference.problem);
+    if (!liesBelow(file, student.folder))
+      return unreadable("it is a link that leads out of the student's folder");
+    if (!isOrdinaryFile(file)) return unreadable("\"" + pair.file + "\" is not a file");
+    checkOutputs(file);
+    InputFiles inputs;
+    judgeOrNote(pair, [&] {
+      Hash hash;
+      hash.add(optionsHash_);
+      hash.add(reference.hash);
+      hash.add(readFile(file));
+      if (task_.grade.renderScenes) hash.add(student.everything), hash.add(pair.file);
+      const std::uint64_t key = hash.value();
+      {
+        const std::lock_guard lock(mutex_);
+        if (results_.find(key, pair)) return;
+      }
+      const PictureDifference d =
+          difference(*reference.picture,
+                     task_.grade.renderScenes ? renderedScene(file, task_.grade, inputs) : loadPicture(file),
+                     task_.grade.difference);
+      judge(pair, d, task_.grade.limits);
+      if (task_.grade.keepsPictures && !passes(pair.verdict)) addThumbnails(pair, d);
+      const std::lock_guard lock(mutex_);
+      results_.add(key, pair);
+      ++grades_.computed;
+    });
+    checkOutputs(inputs);
+  }
+
+  void addThumbnails(GradedPair& pair, const PictureDifference& d) const {
+    pair.testPicture = thumbnailFile(d.test.picture);
+    if (!d.numbers.sameSize) return;
+    for (const Show& show : shows())
+      if (show.name == "heat")
+        pair.heatPicture = thumbnailFile(show.picture(d.pictures(), task_.grade.magnify));
+  }
+
+  void checkOutputs(const std::string& read) const {
+    InputFiles inputs;
+    inputs.noteRead(read, {});
+    checkOutputs(inputs);
+  }
+  void checkOutputs(const InputFiles& inputs) const {
+    for (const std::string* output : {&task_.grade.page, &task_.csv, &task_.results})
+      if (!output->empty()) checkIsNoInput(*output, inputs);
+  }
+
+  /// So that a run that is killed loses a few seconds of work.
+  void keepSometimes() {
+    constexpr std::chrono::seconds kBetween{5};
+    const std::lock_guard lock(mutex_);
+    const auto now = std::chrono::steady_clock::now();
+    if (now - saved_ < kBetween) return;
+    results_.save(false);
+    saved_ = now;
+  }
+
+  void addPoints() {
+    for (ClassStudent& student : grades_.students) {
+      for (std::size_t i = 0; i < student.pairs.size(); ++i) {
+        const GradedPair& pair = student.pairs[i];
+        student.points.push_back(grades_.scenes[i].points * task_.rubric.shareOf(pair));
+        student.total += student.points.back();
+        student.passed += passes(pair.verdict);
+      }
+    }
+    std::sort(grades_.students.begin(), grades_.students.end(), [](const auto& a, const auto& b) {
+      if (a.total != b.total) return a.total < b.total;
+      return a.passed != b.passed ? a.passed < b.passed : a.name < b.name;
+    });
+  }
+
+  const ClassTask& task_;
+  ClassGrades grades_;
+  std::vector<Reference> references_;
+  std::vector<Submission> students_;
+  std::uint64_t optionsHash_ = 0;
+  std::mutex mutex_;  // guards the members below, and grades_.computed
+  ClassResults results_;
+  std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+std::vector<std::string> assignSubmissions(const std::vector<std::string>& references,
+                                           const std::vector<std::string>& files) {
+  std::vector<std::vector<std::string>> wanted;
+  for (const std::string& reference : references) wanted.push_back(partsFromEnd(reference));
+  std::vector<const std::string*> chosen(references.size());
+  std::vector<std::size_t> agreed(references.size());
+  const auto better = [&](const std::string& file, std::size_t agrees, std::size_t i) {
+    if (!chosen[i]) return true;
+    const std::string& other = *chosen[i];
+    if (agrees != agreed[i]) return agrees > agreed[i];
+    const auto depth = [](const std::string& path) { return std::count(path.begin(), path.end(), '/'); };
+    if (depth(file) != depth(other)) return depth(file) < depth(other);
+    const auto suffix = [](const std::string& path) {
+      return lowerCase(fs::path(path).extension().string());
+    };
+    const bool same = suffix(file) == suffix(references[i]),
+               otherSame = suffix(other) == suffix(references[i]);
+    return same != otherSame ? same : file < other;
+  };
+  for (const std::string& file : files) {
+    const std::vector<std::string> parts = partsFromEnd(file);
+    std::size_t most = 0;
+    for (const auto& reference : wanted) most = std::max(most, agreement(parts, reference));
+    if (most == 0) continue;
+    // A name that several references share in different folders is that of none without its folder.
+    const auto rivals = std::count_if(wanted.begin(), wanted.end(), [&](const auto& reference) {
+      return agreement(parts, reference) == most;
+    });
+    if (rivals > 1) continue;
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      if (agreement(parts, wanted[i]) == most && better(file, most, i)) chosen[i] = &file, agreed[i] = most;
+  }
+  std::vector<std::string> result;
+  for (const std::string* file : chosen) result.push_back(file ? *file : "");
+  return result;
+}
+
+ClassGrades gradeClass(const ClassTask& task) { return ClassGrader(task).grade(); }
+
+}  // namespace trace

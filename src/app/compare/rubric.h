@@ -1,0 +1,39 @@
+// The points of a class: what each scene is worth, and the share that a picture with a mistake keeps. A text
+// file, read by `ray grade --class --rubric FILE`; docs/how-to/grade-a-class.md has its rows.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace trace {
+
+struct GradedPair;
+
+struct Rubric {
+  /// Names of scenes, in which * stands for any letters, and their points; the first that fits counts.
+  std::vector<std::pair<std::string, double>> scenes;
+  /// Names of mistakes (mistakeNames()) and the share that a picture with them keeps, 0 to 1.
+  std::vector<std::pair<std::string, double>> mistakes;
+  /// A picture whose metric is within this keeps the share.
+  struct Step {
+    std::string metric;
+    double value = 0, share = 0;
+  };
+  std::vector<Step> steps;
+
+  /// 1 if no row fits.
+  double pointsOf(std::string_view scene) const;
+  /// The share of the points that the picture gets: 1 within the limits; else the largest share of its rows,
+  /// or 0. Shares of several mistakes of one picture are multiplied.
+  double shareOf(const GradedPair& pair) const;
+};
+
+/// "flipped", "channels", "gamma", "brightness", "shift".
+std::vector<std::string_view> mistakeNames();
+
+/// Throws Error(Fault::io), and Error(Fault::scene) with file, line and column.
+Rubric readRubric(const std::string& file);
+
+}  // namespace trace
