@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "image/srgb.h"
 
 namespace trace {

@@ -6,8 +6,8 @@
 
 #include "base/error.h"
 #include "formats/format.h"
-#include "render/passes.h"
-#include "render/render.h"
+#include "render/picture/passes.h"
+#include "render/picture/render.h"
 #include "scene/options.h"
 #include "stopwatch.h"
 

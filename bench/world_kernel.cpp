@@ -3,7 +3,7 @@
 #include <malloc.h>
 
 #include "kernel.h"
-#include "render/world.h"
+#include "render/world/world.h"
 #include "stopwatch.h"
 
 namespace trace::bench {

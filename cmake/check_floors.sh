@@ -17,6 +17,12 @@ formats render
 app
 cli studio library'
 
+# Folders that are divided into rooms, each from the bottom: a room sees only those before it in the row.
+rooms='formats/ray syntax read language file write
+app session lint explain compare editing view
+render world maps rays samples lights media paths photons integrators chains picture'
+most=30  # files in a room
+
 cd -- "${1:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
 for list in material texture; do
   seers="$(grep -rlE "^#include \"shading/${list}_list.h\"" src | sort | tr '\n' ' ')"
@@ -29,7 +35,7 @@ for list in material texture; do
   esac
 done
 seers="$(grep -rlE '^#include "geometry/shape_list.h"' src tests bench | sort | tr '\n' ' ')"
-if [[ "$seers" != 'src/geometry/shape_table.cpp src/render/world_queries.cpp ' ]]; then
+if [[ "$seers" != 'src/geometry/shape_table.cpp src/render/world/world_queries.cpp ' ]]; then
   echo "only the table of shapes and the World's queries include geometry/shape_list.h, not: $seers"
   exit 1
 fi
@@ -37,14 +43,31 @@ if grep -rnE '[!=]= *IntegratorKind::' src; then
   echo 'ask for a trait (scene/integrators.h), not for one integrator'
   exit 1
 fi
-{ grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]' src || true; } | FLOORS="$floors" awk '
+while read -r folder names; do
+  for room in $names; do
+    count="$(find "src/$folder/$room" -type f | wc -l)"
+    if ((count > most)); then
+      echo "src/$folder/$room has $count files; a room has at most $most"
+      exit 1
+    fi
+  done
+done <<<"$rooms"
+{ grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]' src || true; } | FLOORS="$floors" ROOMS="$rooms" awk '
   function complain(what) { print file ":" number ": error: " what; wrong++ }
+  function isIn(path, folder) { return substr(path, 1, length(folder) + 1) == folder "/" }
+  function roomOf(path, folder) { path = substr(path, length(folder) + 2); sub(/\/.*/, "", path); return path }
 
   BEGIN {
     height = split(ENVIRON["FLOORS"], rows, "\n")
     for (i = 1; i <= height; i++) {
       n = split(rows[i], names, " ")
       for (j = 1; j <= n; j++) { level[names[j]] = i; order[++folders] = names[j] }
+    }
+    height = split(ENVIRON["ROOMS"], rows, "\n")
+    for (i = 1; i <= height; i++) {
+      n = split(rows[i], names, " ")
+      for (j = 2; j <= n; j++) room[names[1], names[j]] = j
+      divided[names[1]]
     }
   }
 
@@ -62,6 +85,13 @@ fi
       uses[from, to]++; total++
       if (level[to] >= level[from])
         complain(from " includes \"" header "\", but " to " is " (level[to] > level[from] ? "above" : "beside") " it")
+    }
+    for (folder in divided) {
+      if (!isIn(path = substr(file, 5), folder)) continue
+      here = roomOf(path, folder)
+      if (!((folder, here) in room)) complain("\"" here "\" is no room of " folder "; the list is at the top of cmake/check_floors.sh")
+      else if (isIn(header, folder) && room[folder, roomOf(header, folder)] > room[folder, here])
+        complain(here " includes \"" header "\", but that room is above it")
     }
   }
 

@@ -1,6 +1,6 @@
 cmake_minimum_required(VERSION 3.24)
 
-# Writes src/app/version.h's commit() into OUT, as git names it in ROOT, and sources(), a hash of what the program is made of: run
+# Writes src/app/session/version.h's commit() into OUT, as git names it in ROOT, and sources(), a hash of what the program is made of: run
 # before each build, so that `ray --version` is true. The file changes only with these. Without git or its folder the name is empty.
 find_package(Git QUIET)
 set(name "")
@@ -17,7 +17,7 @@ endforeach()
 string(SHA1 sources "${hashes}")
 string(SUBSTRING ${sources} 0 16 sources)
 file(CONFIGURE OUTPUT ${OUT} CONTENT [[
-#include "app/version.h"
+#include "app/session/version.h"
 
 std::string_view trace::commit() { return "@name@"; }
 std::string_view trace::sources() { return "@sources@"; }

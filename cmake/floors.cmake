@@ -1,13 +1,14 @@
-# floor(NAME [LIGHT] [USES lower floors...] [LIBRARIES public...] [PRIVATE private...] [PRECOMPILE headers...]
+# floor(NAME [LIGHT] [ROOMS] [USES lower floors...] [LIBRARIES public...] [PRIVATE private...] [PRECOMPILE headers...]
 #       [PRECOMPILE_AS lower floor] [HOT files...] [COLD files...])
 #
 # Makes the library trace_NAME, for other projects Trace::NAME, of the .cpp files below src/NAME; those called *_avx*.cpp
 # are added where the processor has what they need. Headers are written #include "NAME/file.h"; each floor's include root is
 # a folder that holds nothing but a link NAME -> src/NAME, so only the floors used are visible. PRECOMPILE names the headers
 # that many of its files include; a floor without any shares those of base, or of the floor that PRECOMPILE_AS names.
+# ROOMS: its folders are compiled together, since each alone is small.
 # LIGHT: nothing in it is hot but the files of HOT; else all is but those of COLD. What is not hot is compiled in less time.
 function(floor NAME)
-  cmake_parse_arguments(ARG "LIGHT" "PRECOMPILE_AS" "USES;LIBRARIES;PRIVATE;PRECOMPILE;HOT;COLD" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHT;ROOMS" "PRECOMPILE_AS" "USES;LIBRARIES;PRIVATE;PRECOMPILE;HOT;COLD" ${ARGN})
   set(root ${PROJECT_BINARY_DIR}/floors/${NAME})
   file(MAKE_DIRECTORY ${root})
   file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/${NAME} ${root}/${NAME} SYMBOLIC)
@@ -34,7 +35,7 @@ function(floor NAME)
     target_include_directories(${part} PUBLIC ${root})
     target_link_libraries(${part} PUBLIC ${ARG_USES} ${ARG_LIBRARIES} PRIVATE ${ARG_PRIVATE})
     target_compile_features(${part} PUBLIC cxx_std_20)
-    together(${part})
+    together(${part} ${ARG_ROOMS})
   endforeach()
   list(TRANSFORM ARG_COLD PREPEND src/${NAME}/)
   # Without precompiled headers: GCC 12 breaks where those were made with another optimisation.

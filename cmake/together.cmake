@@ -1,7 +1,7 @@
-# together(TARGET): with CMAKE_UNITY_BUILD, which the preset for users switches on, the files of a folder are compiled several
+# together(TARGET [ROOMS]): with CMAKE_UNITY_BUILD, which the preset for users switches on, the files of a folder are compiled several
 # at a time, for most of the time of one goes into headers. So the names in anonymous namespaces are distinct within a folder of
 # sources; the tests of a file stand in a namespace of its name where they share names. Files with options of their own are
-# compiled by themselves.
+# compiled by themselves. ROOMS, if true: the files of all its folders count as those of one, in their order.
 function(together TARGET)
   set(filesAtATime 16)
   get_target_property(sources ${TARGET} SOURCES)
@@ -13,6 +13,9 @@ function(together TARGET)
   foreach(source IN LISTS sources)
     file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${source})
     get_filename_component(folder ${folder} DIRECTORY)
+    if(ARGN)
+      string(REGEX REPLACE "/[^/]*$" "" folder "${folder}")
+    endif()
     string(MAKE_C_IDENTIFIER "${folder}" folder)
     if(NOT DEFINED count_${folder})
       set(count_${folder} 0)

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/difference.h"
+#include "app/compare/difference.h"
 #include "base/enum_set.h"
 #include "cli/console.h"
 #include "cli/progress.h"

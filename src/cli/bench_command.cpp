@@ -2,9 +2,9 @@
 // docs/statistics.md has the keys.
 #include <array>
 
-#include "app/json.h"
-#include "app/ray_bench.h"
-#include "app/session.h"
+#include "app/session/json.h"
+#include "app/session/ray_bench.h"
+#include "app/session/session.h"
 #include "cli/commands.h"
 #include "cli/formatted.h"
 

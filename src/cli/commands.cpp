@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "app/session.h"
-#include "app/version.h"
+#include "app/session/session.h"
+#include "app/session/version.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/parallel.h"

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "app/difference.h"
-#include "app/extensions.h"
-#include "app/studio_flags.h"
-#include "app/texture_edits.h"
+#include "app/compare/difference.h"
+#include "app/compare/extensions.h"
+#include "app/editing/studio_flags.h"
+#include "app/editing/texture_edits.h"
 #include "cli/help_parts.h"
 #include "formats/format.h"
 #include "image/codec.h"

@@ -8,9 +8,9 @@
 #include <set>
 #include <stdexcept>
 
-#include "app/output.h"
-#include "app/remaining_time.h"
-#include "app/session.h"
+#include "app/session/output.h"
+#include "app/session/remaining_time.h"
+#include "app/session/session.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/read_scope.h"
@@ -22,7 +22,7 @@
 #include "formats/format.h"
 #include "formats/known_fields.h"
 #include "formats/mesh/revolve.h"
-#include "formats/ray/ray_format.h"
+#include "formats/ray/file/format.h"
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 

@@ -11,9 +11,9 @@
 #include <optional>
 #include <utility>
 
-#include "app/diff_cause.h"
-#include "app/difference.h"
-#include "app/json.h"
+#include "app/compare/diff_cause.h"
+#include "app/compare/difference.h"
+#include "app/session/json.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/printable.h"

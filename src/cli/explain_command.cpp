@@ -5,11 +5,11 @@
 #include <array>
 #include <filesystem>
 
-#include "app/explain_json.h"
-#include "app/explain_text.h"
-#include "app/explained_rays.h"
-#include "app/ray_drawing.h"
-#include "app/session.h"
+#include "app/explain/explain_json.h"
+#include "app/explain/explain_text.h"
+#include "app/explain/explained_rays.h"
+#include "app/session/session.h"
+#include "app/view/ray_drawing.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"

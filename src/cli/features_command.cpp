@@ -1,7 +1,7 @@
 // ray features: what this program can do, from its tables.
 #include <string>
 
-#include "app/extensions.h"
+#include "app/compare/extensions.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"
@@ -11,7 +11,7 @@
 #include "cli/manual.h"
 #include "formats/format.h"
 #include "image/codec.h"
-#include "render/passes.h"
+#include "render/picture/passes.h"
 #include "scene/integrators.h"
 #include "scene/scene_features.h"
 #include "shading/library.h"

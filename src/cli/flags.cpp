@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "app/extensions.h"
+#include "app/compare/extensions.h"
 #include "base/text.h"
 #include "cli/completion.h"
 #include "cli/manual.h"

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <filesystem>
 
-#include "app/remaining_time.h"
+#include "app/session/remaining_time.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"

@@ -8,8 +8,8 @@
 #include <atomic>
 #include <thread>
 
-#include "app/grade.h"
-#include "app/json.h"
+#include "app/compare/grade.h"
+#include "app/session/json.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "cli/commands.h"

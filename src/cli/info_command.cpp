@@ -6,8 +6,8 @@
 #include <array>
 #include <cstdio>
 
-#include "app/json.h"
-#include "app/session.h"
+#include "app/session/json.h"
+#include "app/session/session.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "cli/commands.h"

@@ -1,11 +1,11 @@
 // ray lint SCENE: what is likely a mistake, for people or as JSON. Schema: docs/lint.md.
 #include <array>
 
-#include "app/auto_exposure.h"
-#include "app/json.h"
-#include "app/lint.h"
-#include "app/render_warnings.h"
-#include "app/session.h"
+#include "app/lint/lint.h"
+#include "app/session/auto_exposure.h"
+#include "app/session/json.h"
+#include "app/session/render_warnings.h"
+#include "app/session/session.h"
 #include "base/file.h"
 #include "base/printable.h"
 #include "cli/commands.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "app/studio_flags.h"
+#include "app/editing/studio_flags.h"
 #include "cli/help_parts.h"
 #include "scene/conventions.h"
 

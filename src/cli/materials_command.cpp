@@ -7,17 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "app/denoising.h"
-#include "app/output.h"
-#include "app/remaining_time.h"
-#include "app/session.h"
+#include "app/session/denoising.h"
+#include "app/session/output.h"
+#include "app/session/remaining_time.h"
+#include "app/session/session.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "formats/ray/ray_format.h"
+#include "formats/ray/file/format.h"
 #include "image/codec.h"
-#include "render/passes.h"
+#include "render/picture/passes.h"
 #include "scene/quality.h"
 #include "shading/library.h"
 #include "shading/substances.h"

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "app/difference.h"
-#include "app/json.h"
+#include "app/compare/difference.h"
+#include "app/session/json.h"
 
 namespace trace::cli {
 

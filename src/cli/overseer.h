@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "app/remaining_time.h"
+#include "app/session/remaining_time.h"
 #include "base/budget.h"
 #include "cli/console.h"
 #include "cli/progress.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/remaining_time.h"
+#include "app/session/remaining_time.h"
 #include "base/text.h"
 #include "cli/console.h"
 

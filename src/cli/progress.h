@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "app/remaining_time.h"
+#include "app/session/remaining_time.h"
 
 namespace trace::cli {
 

@@ -6,8 +6,8 @@
 #include <chrono>
 #include <filesystem>
 
-#include "app/remaining_time.h"
-#include "app/session.h"
+#include "app/session/remaining_time.h"
+#include "app/session/session.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "cli/commands.h"

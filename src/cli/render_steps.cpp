@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/render_warnings.h"
+#include "app/session/render_warnings.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "cli/commands.h"
@@ -12,9 +12,9 @@
 #include "cli/statistics_text.h"
 #include "image/codec.h"
 #include "image/srgb.h"
-#include "render/passes.h"
-#include "render/render.h"
-#include "render/sampler.h"
+#include "render/picture/passes.h"
+#include "render/picture/render.h"
+#include "render/samples/sampler.h"
 
 namespace trace::cli {
 namespace {

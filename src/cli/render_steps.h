@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "cli/arguments.h"
 #include "cli/console.h"
 #include "cli/progress.h"

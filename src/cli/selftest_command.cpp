@@ -6,9 +6,9 @@
 #include <string>
 
 #include "accel/bvh_kernel.h"
-#include "app/remaining_time.h"
-#include "app/selftest.h"
-#include "app/version.h"
+#include "app/compare/selftest.h"
+#include "app/session/remaining_time.h"
+#include "app/session/version.h"
 #include "base/file.h"
 #include "base/parallel.h"
 #include "cli/commands.h"

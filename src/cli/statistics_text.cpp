@@ -3,7 +3,7 @@
 #include <optional>
 #include <string_view>
 
-#include "app/json.h"
+#include "app/session/json.h"
 #include "base/parallel.h"
 #include "cli/formatted.h"
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "app/session.h"
+#include "app/session/session.h"
 
 namespace trace::cli {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "app/remaining_time.h"
-#include "app/session.h"
+#include "app/session/remaining_time.h"
+#include "app/session/session.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/parallel.h"

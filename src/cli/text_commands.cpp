@@ -2,16 +2,16 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/output.h"
+#include "app/session/output.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/read_scope.h"
 #include "cli/commands.h"
 #include "cli/first_scene.h"
-#include "formats/ray/ray_expansion.h"
-#include "formats/ray/ray_format.h"
-#include "formats/ray/ray_layout.h"
-#include "formats/ray/ray_patch.h"
+#include "formats/ray/file/format.h"
+#include "formats/ray/language/expansion.h"
+#include "formats/ray/syntax/layout.h"
+#include "formats/ray/write/patch.h"
 #include "formats/text_front.h"
 
 namespace trace::cli {

@@ -7,8 +7,8 @@
 #include <string>
 #include <thread>
 
-#include "app/checkpoint.h"
-#include "app/session.h"
+#include "app/session/checkpoint.h"
+#include "app/session/session.h"
 #include "cli/arguments.h"
 #include "cli/console.h"
 #include "cli/progress.h"

@@ -1,5 +1,5 @@
 // The traced form of a shape, whatever its type: the shape itself, or data computed from it. The
-// World goes a shorter way (render/world_queries.cpp).
+// World goes a shorter way (render/world/world_queries.cpp).
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "library/guard.h"
 
-#include "app/version.h"
+#include "app/session/version.h"
 
 namespace traceray {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "app/difference.h"
+#include "app/compare/difference.h"
 #include "base/text.h"
 #include "image/codec.h"
 #include "image/difference.h"

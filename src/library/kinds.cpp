@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "library/field_values.h"
-#include "render/integrator.h"
+#include "render/samples/integrator.h"
 #include "scene/options.h"
 #include "shading/background.h"
 #include "shading/cameras/camera.h"

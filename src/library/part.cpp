@@ -1,17 +1,18 @@
 // Things of a scene: their fields read and set. A light, the camera and the background are written, changed
 // as text and read again, so that the reader of scene files checks them; objects and materials are changed in
 // their place.
+#include "formats/ray/file/part.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
 #include "formats/model.h"
-#include "formats/ray/ray_fields.h"
-#include "formats/ray/ray_language.h"
-#include "formats/ray/ray_material.h"
-#include "formats/ray/ray_part.h"
-#include "formats/ray/ray_shape_checks.h"
-#include "formats/ray/ray_writer.h"
+#include "formats/ray/language/language.h"
+#include "formats/ray/read/fields.h"
+#include "formats/ray/read/material.h"
+#include "formats/ray/read/shape_checks.h"
+#include "formats/ray/write/writer.h"
 #include "formats/textures.h"
 #include "geometry/traced.h"
 #include "library/field_values.h"

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/ray/ray_part.h"
+#include "formats/ray/file/part.h"
 #include "library/scene_state.h"
 #include "traceray/traceray.h"
 

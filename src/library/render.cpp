@@ -8,12 +8,12 @@
 #include <optional>
 #include <thread>
 
-#include "app/denoising.h"
-#include "app/explain_json.h"
-#include "app/explain_text.h"
-#include "app/explained_rays.h"
-#include "app/output.h"
-#include "app/session.h"
+#include "app/explain/explain_json.h"
+#include "app/explain/explain_text.h"
+#include "app/explain/explained_rays.h"
+#include "app/session/denoising.h"
+#include "app/session/output.h"
+#include "app/session/session.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "image/codec.h"
@@ -21,7 +21,7 @@
 #include "library/guard.h"
 #include "library/images.h"
 #include "library/scene_state.h"
-#include "render/passes.h"
+#include "render/picture/passes.h"
 #include "scene/integrators.h"
 
 namespace traceray {

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/auto_exposure.h"
-#include "app/lint.h"
-#include "app/output.h"
-#include "app/render_warnings.h"
+#include "app/lint/lint.h"
+#include "app/session/auto_exposure.h"
+#include "app/session/output.h"
+#include "app/session/render_warnings.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "library/guard.h"

@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "formats/model.h"
-#include "formats/ray/ray_part.h"
+#include "formats/ray/file/part.h"
 #include "formats/textures.h"
 #include "library/guard.h"
 #include "scene/quality.h"

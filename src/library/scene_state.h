@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "formats/format.h"
 #include "formats/kind_defaults.h"
 #include "scene/scene.h"

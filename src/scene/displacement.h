@@ -1,7 +1,7 @@
 // The displacement of a mesh by its materials: `displacement` and `displacement_levels`.
 //
-// compile() (render/world.h) and the writers of mesh formats ask for it; the Scene keeps the mesh as it was
-// given.
+// compile() (render/world/world.h) and the writers of mesh formats ask for it; the Scene keeps the mesh as it
+// was given.
 #pragma once
 
 #include <cstdint>

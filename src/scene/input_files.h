@@ -1,6 +1,6 @@
 // The files that a scene is made of. Readers note each one that they open, and each one that the scene names
 // though nobody opens it yet, such as the picture of a texture. No output may replace one of them
-// (app/output.h), and what was read decides whether a picture is still that of its scene.
+// (app/session/output.h), and what was read decides whether a picture is still that of its scene.
 #pragma once
 
 #include <compare>

@@ -1,7 +1,7 @@
 // A scene: what a file said and what a person edits. Plain values, copied, compared, saved.
 //
-// It is flat: nested transforms are multiplied out, groups are names. compile() (render/world.h) makes from
-// it the World that rays meet, out of the same shape, material and light structs.
+// It is flat: nested transforms are multiplied out, groups are names. compile() (render/world/world.h) makes
+// from it the World that rays meet, out of the same shape, material and light structs.
 #pragma once
 
 #include <string>

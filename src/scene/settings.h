@@ -23,7 +23,7 @@ enum class IntegratorKind { whitted, path, direct, bdpt, mlt, photon, occlusion,
 enum class Chains { bdpt, path, veach };
 /// How paths are changed place by place.
 enum class Mutation { bidirectional, lens, caustic, multiChain };
-/// How the samples of a pixel are spread: a row of render/sampler.cpp.
+/// How the samples of a pixel are spread: a row of render/samples/sampler.cpp.
 enum class SampleKind { grid, random, jittered, stratified, halton, sobol, blue };
 
 /// Whose rules hold where the courses and years differ: a row of conventions.cpp.
@@ -51,7 +51,7 @@ enum class ShapeKind {};
 /// A part of scenes that can be switched off, by its number in the table of scene_features.h.
 enum class SceneFeature {};
 
-/// A picture beside the picture: a row of render/passes.cpp.
+/// A picture beside the picture: a row of render/picture/passes.cpp.
 enum class Pass { depth, normal, id, uv, position, samples, albedo, occlusion, change };
 /// The distance in the pass "depth": along the view direction, or along the ray.
 enum class PassDepth { view, ray };

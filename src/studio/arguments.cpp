@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "app/studio_flags.h"
+#include "app/editing/studio_flags.h"
 #include "base/error.h"
 #include "scene/short_flags.h"
 #include "studio/script.h"

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "app/typed_file.h"
-#include "app/typed_region.h"
+#include "app/editing/typed_file.h"
+#include "app/editing/typed_region.h"
 #include "base/text.h"
 #include "scene/conventions.h"
 #include "scene/integrators.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/version.h"
+#include "app/session/version.h"
 #include "studio/actions.h"
 #include "studio/landmarks.h"
 #include "studio/panels.h"

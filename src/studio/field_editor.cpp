@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "app/edits.h"
+#include "app/editing/edits.h"
 #include "studio/file_dialog.h"
 #include "studio/landmarks.h"
 #include "studio/number_field.h"

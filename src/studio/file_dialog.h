@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/folder.h"
+#include "app/editing/folder.h"
 
 namespace trace::studio {
 

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/version.h"
+#include "app/session/version.h"
 #include "base/error.h"
 #include "base/printable.h"
 #include "base/read_scope.h"

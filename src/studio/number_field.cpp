@@ -11,8 +11,8 @@
 #include <optional>
 #include <utility>
 
-#include "app/short_number.h"
-#include "app/typed_value.h"
+#include "app/editing/short_number.h"
+#include "app/editing/typed_value.h"
 #include "base/field.h"
 #include "base/text.h"
 #include "studio/landmarks.h"
@@ -160,10 +160,10 @@ bool editNumber(const char* id, double& value, const NumberLook& look) {
 }
 
 bool editNumber(const char* id, int& value, const NumberLook& look) {
-  constexpr double kMost = 2147483647;
+  constexpr double kMostInt = 2147483647;
   NumberLook inRange = look;
-  inRange.least = std::max(look.least, -kMost);
-  inRange.most = std::min(look.most, kMost);
+  inRange.least = std::max(look.least, -kMostInt);
+  inRange.most = std::min(look.most, kMostInt);
   double number = value;
   if (!editNumberField(id, number, inRange, true)) return false;
   const int now = static_cast<int>(std::lround(number));

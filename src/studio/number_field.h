@@ -1,5 +1,5 @@
 // Numbers and text that a person drags or types. What is dragged shows at once; what is typed counts on
-// Enter, or when the field is left, and Esc restores the old one (app/typed_value.h).
+// Enter, or when the field is left, and Esc restores the old one (app/editing/typed_value.h).
 #pragma once
 
 #include <string>

@@ -2,7 +2,7 @@
 
 #include <imgui.h>
 
-#include "app/placing.h"
+#include "app/editing/placing.h"
 #include "base/text.h"
 #include "geometry/field_value.h"
 #include "geometry/mesh/mesh.h"

@@ -1,7 +1,7 @@
 // The buttons above the picture, and what stands in its place while there is none.
 #include <cmath>
 
-#include "app/picture_views.h"
+#include "app/view/picture_views.h"
 #include "studio/actions.h"
 #include "studio/landmarks.h"
 #include "studio/picture_parts.h"

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "app/picture_views.h"
+#include "app/view/picture_views.h"
 #include "studio/landmarks.h"
 #include "studio/panels.h"
 #include "studio/picture_parts.h"

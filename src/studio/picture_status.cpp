@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/picture_views.h"
+#include "app/view/picture_views.h"
 #include "studio/field_editor.h"
 #include "studio/landmarks.h"
 #include "studio/picture_parts.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/picture_views.h"
-#include "app/pixel_choice.h"
+#include "app/view/picture_views.h"
+#include "app/view/pixel_choice.h"
 #include "image/picture.h"
 #include "studio/texture.h"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/picture_views.h"
+#include "app/view/picture_views.h"
 #include "base/text.h"
 #include "studio/landmarks.h"
 #include "studio/number_field.h"

@@ -1,4 +1,5 @@
-// How the panel Rays shows the rays that app/pixel_inspector.h has of a pixel, in space and as a tree.
+// How the panel Rays shows the rays that app/explain/pixel_inspector.h has of a pixel, in space and as a
+// tree.
 #pragma once
 
 #include <memory>
@@ -6,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "app/chain_walk.h"
-#include "app/orbit_camera.h"
-#include "app/pixel_inspector.h"
-#include "app/scene_model.h"
-#include "app/way_pyramid.h"
+#include "app/explain/chain_walk.h"
+#include "app/explain/pixel_inspector.h"
+#include "app/view/orbit_camera.h"
+#include "app/view/scene_model.h"
+#include "app/view/way_pyramid.h"
 #include "image/development.h"
-#include "render/visited_boxes.h"
+#include "render/rays/visited_boxes.h"
 #include "studio/scene_drawer.h"
 #include "studio/texture.h"
 
@@ -82,8 +83,9 @@ struct RaysView {
   Real size = 1;  ///< radius of what is looked at: of lights, normals and rays that leave the scene
   bool fromCamera = false;
   std::weak_ptr<const Session> wallsOf;  ///< for which the walls were found
-  std::vector<std::uint32_t> walls;  ///< walls of the room that the scene's camera stands in; see app/room.h
-  bool roomOpened = true;            ///< those of them that hide its inside are left out
+  std::vector<std::uint32_t>
+      walls;               ///< walls of the room that the scene's camera stands in; see app/view/room.h
+  bool roomOpened = true;  ///< those of them that hide its inside are left out
   Surfaces surfaces = Surfaces::shaded;
   float opacity = 1;  ///< opacity of surfaces
   bool boundsShown = false, normalsShown = false, lightsShown = true, cameraShown = true, axesShown = false;

@@ -35,7 +35,7 @@ uniform bool wall;
 uniform vec4 colour;
 out vec4 result;
 void main() {
-  vec3 across = cross(dFdx(place), dFdy(place));  // as app/room.h has it
+  vec3 across = cross(dFdx(place), dFdy(place));  // as app/view/room.h has it
   if (wall && dot(across, eye - place) * dot(across, inside - place) < 0) discard;
   peel();
   vec3 n = normalize(facing), v = normalize(eye - place);

@@ -1,5 +1,5 @@
 // Draws triangles and lines in space into a texture: the OpenGL of the 3D view. What is drawn, others decide
-// (app/scene_model.h, scene_view.cpp).
+// (app/view/scene_model.h, scene_view.cpp).
 #pragma once
 
 #include <imgui.h>
@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "app/orbit_camera.h"
+#include "app/view/orbit_camera.h"
 #include "math/color.h"
 
 namespace trace::studio {

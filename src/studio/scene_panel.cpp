@@ -7,10 +7,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/edits.h"
-#include "app/placing.h"
-#include "app/scene_changes.h"
-#include "app/typed_file.h"
+#include "app/editing/edits.h"
+#include "app/editing/placing.h"
+#include "app/editing/scene_changes.h"
+#include "app/editing/typed_file.h"
 #include "base/file.h"
 #include "base/match.h"
 #include "base/text.h"

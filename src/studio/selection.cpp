@@ -2,7 +2,7 @@
 
 #include <imgui.h>
 
-#include "app/scene_changes.h"
+#include "app/editing/scene_changes.h"
 #include "base/match.h"
 #include "studio/landmarks.h"
 #include "studio/object_editor.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "app/room.h"
+#include "app/view/room.h"
 #include "studio/landmarks.h"
 #include "studio/rays_view.h"
 #include "studio/space_lines.h"

@@ -1,5 +1,5 @@
-// All that the panels share: the workspace (app/workspace.h has the logic), what is selected, how things are
-// looked at. Panels and actions are rows of tables (panels.cpp, actions.cpp).
+// All that the panels share: the workspace (app/editing/workspace.h has the logic), what is selected, how
+// things are looked at. Panels and actions are rows of tables (panels.cpp, actions.cpp).
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 #include <map>
 #include <string>
 
-#include "app/preferences.h"
-#include "app/workspace.h"
+#include "app/editing/preferences.h"
+#include "app/editing/workspace.h"
 #include "studio/file_dialog.h"
 #include "studio/picture_view.h"
 #include "studio/rays_view.h"

@@ -4,7 +4,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
-#include "app/picture_views.h"
+#include "app/view/picture_views.h"
 
 namespace trace::studio {
 

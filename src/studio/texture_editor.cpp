@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "app/edits.h"
-#include "app/texture_edits.h"
+#include "app/editing/edits.h"
+#include "app/editing/texture_edits.h"
 #include "base/match.h"
 #include "shading/texture_flaws.h"
 #include "studio/landmarks.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/input_queue.h"
+#include "app/editing/input_queue.h"
 #include "image/tone.h"
 
 namespace trace::studio {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "support/paths.h"
 
 namespace trace::test {

@@ -1,5 +1,5 @@
 // Chains of mlt that are followed move by move.
-#include "app/chain_walk.h"
+#include "app/explain/chain_walk.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // What an unfinished render leaves beside its picture.
-#include "app/checkpoint.h"
+#include "app/session/checkpoint.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <filesystem>
 
-#include "app/output.h"
+#include "app/session/output.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "base/read_scope.h"
 #include "image/codec.h"
 #include "image/compare.h"
-#include "render/passes.h"
+#include "render/picture/passes.h"
 #include "support/paths.h"
 #include "support/shared.h"
 

@@ -1,11 +1,11 @@
 // --denoise from the scene to the picture.
-#include "app/denoising.h"
+#include "app/session/denoising.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "base/file.h"
 #include "image/codec.h"
 #include "support/folder.h"

@@ -1,5 +1,5 @@
 // Wrong pictures are made of a right one, and the change is named; unrelated pictures have no cause.
-#include "app/diff_cause.h"
+#include "app/compare/diff_cause.h"
 
 #include <gtest/gtest.h>
 

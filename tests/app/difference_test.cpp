@@ -1,5 +1,5 @@
 // What is said of two pictures, and the limits they may be held to.
-#include "app/difference.h"
+#include "app/compare/difference.h"
 
 #include <gtest/gtest.h>
 

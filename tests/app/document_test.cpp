@@ -1,13 +1,13 @@
 // A document's edits, undo, options and reading again; what the studio remembers.
-#include "app/document.h"
+#include "app/editing/document.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
-#include "app/edits.h"
-#include "app/folder.h"
-#include "app/preferences.h"
+#include "app/editing/edits.h"
+#include "app/editing/folder.h"
+#include "app/editing/preferences.h"
 #include "base/read_scope.h"
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/csg_tree.h"

@@ -1,5 +1,5 @@
 // What follows when a field was set by hand.
-#include "app/edits.h"
+#include "app/editing/edits.h"
 
 #include <gtest/gtest.h>
 

@@ -4,14 +4,14 @@
 
 #include <cstring>
 
-#include "app/drawing.h"
-#include "app/explained_rays.h"
-#include "app/ray_drawing.h"
-#include "app/ray_segments.h"
-#include "app/session.h"
+#include "app/explain/explained_rays.h"
+#include "app/explain/ray_segments.h"
+#include "app/session/session.h"
+#include "app/view/drawing.h"
+#include "app/view/ray_drawing.h"
 #include "base/file.h"
 #include "base/read_scope.h"
-#include "render/visited_boxes.h"
+#include "render/rays/visited_boxes.h"
 #include "support/folder.h"
 #include "support/paths.h"
 #include "support/shared.h"

@@ -1,12 +1,12 @@
 // The table of extensions is whole, and docs/features is of it.
-#include "app/extensions.h"
+#include "app/compare/extensions.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <filesystem>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "scene/scene_features.h"

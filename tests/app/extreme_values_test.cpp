@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "app/lint.h"
-#include "app/scene_model.h"
-#include "app/session.h"
+#include "app/lint/lint.h"
+#include "app/session/session.h"
+#include "app/view/scene_model.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/looks.h"

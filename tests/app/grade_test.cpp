@@ -1,5 +1,5 @@
 // Folders of pictures against folders of references: pairs, verdicts, their order, the page.
-#include "app/grade.h"
+#include "app/compare/grade.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // What the light image brings a pixel is the rest of the picture's pixel.
-#include "app/light_landings.h"
+#include "app/explain/light_landings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // The sources of a sample's light sum up to the sample.
-#include "app/light_shares.h"
+#include "app/explain/light_shares.h"
 
 #include <gtest/gtest.h>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "support/paths.h"
 #include "support/shared.h"
 

@@ -1,13 +1,13 @@
 // Each check has a scene that it warns of and one, nearly the same, that it does not.
-#include "app/lint.h"
+#include "app/lint/lint.h"
 
 #include <gtest/gtest.h>
 
 #include <ctime>
 #include <filesystem>
 
-#include "app/coplanar.h"
-#include "app/session.h"
+#include "app/lint/coplanar.h"
+#include "app/session/session.h"
 #include "base/file.h"
 #include "base/read_scope.h"
 #include "geometry/mesh/mesh.h"

@@ -1,8 +1,8 @@
 // Motion blur: the moments while the shutter is open.
 #include <gtest/gtest.h>
 
-#include "app/document.h"
-#include "app/session.h"
+#include "app/editing/document.h"
+#include "app/session/session.h"
 #include "support/scene_files.h"
 
 namespace trace::test {

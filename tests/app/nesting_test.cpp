@@ -8,9 +8,9 @@
 #include <functional>
 #include <string>
 
-#include "app/lint.h"
-#include "app/ray_drawing.h"
-#include "app/session.h"
+#include "app/lint/lint.h"
+#include "app/session/session.h"
+#include "app/view/ray_drawing.h"
 #include "base/file.h"
 #include "base/sanitized.h"
 #include "support/folder.h"

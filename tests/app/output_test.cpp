@@ -1,12 +1,12 @@
 // The files of a render: names, values and words.
-#include "app/output.h"
+#include "app/session/output.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <map>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "base/file.h"
 #include "image/codec.h"
 #include "support/folder.h"

@@ -1,11 +1,11 @@
 // The ways of bdpt that are read from a sample's rays.
-#include "app/path_ways.h"
+#include "app/explain/path_ways.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
 #include "support/scenes.h"

@@ -1,5 +1,5 @@
 // What the studio shows of a picture: exposure, levels, differences, false colours.
-#include "app/picture_views.h"
+#include "app/view/picture_views.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A chosen pixel stays at its place of the picture when the size changes.
-#include "app/pixel_choice.h"
+#include "app/view/pixel_choice.h"
 
 #include <gtest/gtest.h>
 

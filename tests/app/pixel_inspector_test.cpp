@@ -1,5 +1,5 @@
 // The rays of a clicked pixel come in the background; the last pixel wanted is the one that stays.
-#include "app/pixel_inspector.h"
+#include "app/explain/pixel_inspector.h"
 
 #include <gtest/gtest.h>
 

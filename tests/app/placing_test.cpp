@@ -1,4 +1,4 @@
-#include "app/placing.h"
+#include "app/editing/placing.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // What the studio shows of rays and of a scene in space, without its window.
-#include "app/ray_view.h"
+#include "app/explain/ray_view.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/orbit_camera.h"
-#include "app/scene_model.h"
-#include "app/session.h"
+#include "app/session/session.h"
+#include "app/view/orbit_camera.h"
+#include "app/view/scene_model.h"
 #include "base/text.h"
 #include "geometry/shapes/copies.h"
 #include "geometry/shapes/csg.h"

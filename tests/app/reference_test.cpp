@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <map>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "base/read_scope.h"
 #include "image/codec.h"
 #include "image/compare.h"

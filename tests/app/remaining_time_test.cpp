@@ -1,4 +1,4 @@
-#include "app/remaining_time.h"
+#include "app/session/remaining_time.h"
 
 #include <gtest/gtest.h>
 

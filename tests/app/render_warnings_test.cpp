@@ -1,7 +1,7 @@
 // What a render warns of: options and names that change nothing, integrators that do not suit the scene.
 #include <gtest/gtest.h>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "image/codec.h"
 #include "support/scene_files.h"
 
@@ -132,7 +132,7 @@ TEST(RenderWarnings, AreToldWithTheirReason) {
   about("point_light { position = (0, 5, 5); color = (1, 1, 1); }\nsphere { }",
         {{"ambient-occlusion", "4", {}}}, "no ambient light");
   about(kLit, {{"caustic-texels", "256", {}}}, "--caustic-texels changes nothing");
-  about("torus { material = { emissive = (1, 1, 1); }; }", {{"lamp-samples", "4", {}}},
+  about("menger { material = { emissive = (1, 1, 1); }; }", {{"lamp-samples", "4", {}}},
         "--lamp-samples changes nothing");
   const std::string lamp = "sphere { material = { emissive = (1, 1, 1); } }";
   about(lamp + "box { material = { diffuse = (1, 1, 1); } }", {}, "they light nothing");

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/session.h"
+#include "app/session/session.h"
 #include "support/shared.h"
 
 namespace trace::reports_test {

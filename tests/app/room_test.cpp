@@ -1,9 +1,9 @@
 // A room around a camera is seen into from outside.
-#include "app/room.h"
+#include "app/view/room.h"
 
 #include <gtest/gtest.h>
 
-#include "app/scene_model.h"
+#include "app/view/scene_model.h"
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/plane.h"
 #include "geometry/shapes/sphere.h"

@@ -1,5 +1,5 @@
 // Which thing of a scene came or went, and what uses a material.
-#include "app/scene_changes.h"
+#include "app/editing/scene_changes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What `ray selftest` looks at, each check by itself.
-#include "app/selftest.h"
+#include "app/compare/selftest.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A document from file to picture, over our own example scenes.
-#include "app/session.h"
+#include "app/session/session.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Numbers where there is little room for them.
-#include "app/short_number.h"
+#include "app/editing/short_number.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "app/texture_edits.h"
+#include "app/editing/texture_edits.h"
 
 #include <gtest/gtest.h>
 
-#include "app/edits.h"
+#include "app/editing/edits.h"
 #include "base/file.h"
 #include "shading/texture_flaws.h"
 #include "shading/textures/brick.h"

@@ -1,5 +1,5 @@
 // Files that are typed for an option.
-#include "app/typed_file.h"
+#include "app/editing/typed_file.h"
 
 #include <gtest/gtest.h>
 

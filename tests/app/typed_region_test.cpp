@@ -1,4 +1,4 @@
-#include "app/typed_region.h"
+#include "app/editing/typed_region.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Numbers that are typed count once, when they are complete.
-#include "app/typed_value.h"
+#include "app/editing/typed_value.h"
 
 #include <gtest/gtest.h>
 

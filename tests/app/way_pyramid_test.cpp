@@ -1,4 +1,4 @@
-#include "app/way_pyramid.h"
+#include "app/view/way_pyramid.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "app/session.h"
-#include "render/integrator.h"
+#include "app/session/session.h"
+#include "render/samples/integrator.h"
 #include "support/paths.h"
 
 namespace trace::test {

@@ -1,6 +1,6 @@
 // What the studio does in the background: the picture that follows, files that are read and written while the
 // window goes on.
-#include "app/workspace.h"
+#include "app/editing/workspace.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 #include <thread>
 #include <utility>
 
-#include "app/texture_edits.h"
+#include "app/editing/texture_edits.h"
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/sphere.h"

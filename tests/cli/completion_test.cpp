@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-#include "app/studio_flags.h"
+#include "app/editing/studio_flags.h"
 #include "cli/help_parts.h"
 #include "cli/manual.h"
 #include "program.h"

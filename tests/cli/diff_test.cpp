@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "app/difference.h"
+#include "app/compare/difference.h"
 #include "image/codec.h"
 #include "program.h"
 #include "support/exr.h"

@@ -6,12 +6,12 @@
 #include <regex>
 #include <sstream>
 
-#include "app/drawing.h"
-#include "app/explain_json.h"
-#include "app/explain_text.h"
-#include "app/explained_rays.h"
-#include "app/ray_drawing.h"
-#include "app/session.h"
+#include "app/explain/explain_json.h"
+#include "app/explain/explain_text.h"
+#include "app/explain/explained_rays.h"
+#include "app/session/session.h"
+#include "app/view/drawing.h"
+#include "app/view/ray_drawing.h"
 #include "base/sanitized.h"
 #include "cli/program.h"
 #include "image/codec.h"

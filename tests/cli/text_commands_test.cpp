@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "formats/format.h"
-#include "formats/ray/ray_expansion.h"
-#include "formats/ray/ray_format.h"
-#include "formats/ray/ray_layout.h"
+#include "formats/ray/file/format.h"
+#include "formats/ray/language/expansion.h"
+#include "formats/ray/syntax/layout.h"
 #include "image/codec.h"
 #include "program.h"
 #include "support/paths.h"

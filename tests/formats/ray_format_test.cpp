@@ -1,14 +1,13 @@
 // What the .ray reader makes of good scenes: docs/ray-format.md.
-#include "formats/ray/ray_format.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/match.h"
 #include "base/read_scope.h"
-#include "formats/ray/ray_texture.h"
-#include "formats/ray/ray_writer.h"
+#include "formats/ray/file/format.h"
+#include "formats/ray/read/texture.h"
+#include "formats/ray/write/writer.h"
 #include "geometry/field_value.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/bezier_patches.h"

@@ -1,7 +1,7 @@
 // Values that change with time: the interpolations by hand, and keys in every kind of place.
 #include <gtest/gtest.h>
 
-#include "formats/ray/ray_format.h"
+#include "formats/ray/file/format.h"
 #include "geometry/mesh/mesh.h"
 #include "math/keyframes.h"
 #include "ray_helpers.h"

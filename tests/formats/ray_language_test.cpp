@@ -1,6 +1,4 @@
 // The language of scenes: docs/language.md.
-#include "formats/ray/ray_language.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +9,8 @@
 
 #include "base/budget.h"
 #include "base/file.h"
-#include "formats/ray/ray_format.h"
+#include "formats/ray/file/format.h"
+#include "formats/ray/language/language.h"
 #include "ray_helpers.h"
 #include "support/paths.h"
 

@@ -1,7 +1,7 @@
 // Shading models in .ray files: chosen, inherited, refused, and edited in the text.
 #include <gtest/gtest.h>
 
-#include "formats/ray/ray_writer.h"
+#include "formats/ray/write/writer.h"
 #include "formats/ray_helpers.h"
 #include "formats/ray_patch_helpers.h"
 #include "shading/materials/coated.h"

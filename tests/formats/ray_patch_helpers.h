@@ -12,9 +12,9 @@
 
 #include "base/file.h"
 #include "base/sanitized.h"
-#include "formats/ray/ray_format.h"
-#include "formats/ray/ray_patch.h"
-#include "formats/ray/ray_same.h"
+#include "formats/ray/file/format.h"
+#include "formats/ray/write/patch.h"
+#include "formats/ray/write/same.h"
 #include "support/paths.h"
 #include "support/shared.h"
 

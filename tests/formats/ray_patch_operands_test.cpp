@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/ray/ray_syntax.h"
+#include "formats/ray/syntax/syntax.h"
 #include "formats/ray_patch_helpers.h"
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/csg_tree.h"

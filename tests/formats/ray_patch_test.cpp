@@ -1,6 +1,4 @@
 // A scene that is saved is the text that was read with as little changed as possible.
-#include "formats/ray/ray_patch.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -11,7 +9,8 @@
 #include <vector>
 
 #include "base/match.h"
-#include "formats/ray/ray_syntax.h"
+#include "formats/ray/syntax/syntax.h"
+#include "formats/ray/write/patch.h"
 #include "formats/ray_patch_helpers.h"
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/sphere.h"

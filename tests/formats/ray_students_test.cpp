@@ -1,13 +1,12 @@
 // What students of the courses added to .ray, and what it stands for in the format: docs/ray-format.md.
-#include "formats/ray/ray_students.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <string>
 
 #include "base/text.h"
-#include "formats/ray/ray_format.h"
+#include "formats/ray/file/format.h"
+#include "formats/ray/file/students.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/traced.h"
 #include "ray_helpers.h"

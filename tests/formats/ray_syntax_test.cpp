@@ -1,8 +1,8 @@
-#include "formats/ray/ray_syntax.h"
-
 #include <gtest/gtest.h>
 
 #include <string>
+
+#include "formats/ray/syntax/syntax.h"
 
 namespace trace::rayfile::ray_syntax_test {
 namespace {

@@ -1,9 +1,8 @@
 // Textures in the text of .ray files.
-#include "formats/ray/ray_texture.h"
-
 #include <gtest/gtest.h>
 
-#include "formats/ray/ray_writer.h"
+#include "formats/ray/read/texture.h"
+#include "formats/ray/write/writer.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/torus.h"
 #include "ray_helpers.h"

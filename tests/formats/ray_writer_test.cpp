@@ -1,6 +1,4 @@
 // Scenes written as .ray files read back as equal scenes, and look the same bit for bit.
-#include "formats/ray/ray_writer.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "base/match.h"
 #include "base/read_scope.h"
+#include "formats/ray/write/writer.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/height_field.h"
 #include "geometry/shapes/sphere.h"

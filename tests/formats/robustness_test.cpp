@@ -12,7 +12,7 @@
 #include "base/read_scope.h"
 #include "base/sanitized.h"
 #include "formats/format.h"
-#include "formats/ray/ray_writer.h"
+#include "formats/ray/write/writer.h"
 #include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
 #include "support/folder.h"

@@ -6,7 +6,7 @@
 
 #include "base/file.h"
 #include "formats/format.h"
-#include "formats/ray/ray_writer.h"
+#include "formats/ray/write/writer.h"
 #include "formats/textures.h"
 #include "probes.h"
 #include "support/folder.h"

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/checkpoint.h"
+#include "app/session/checkpoint.h"
 #include "base/file.h"
 #include "base/hash.h"
 #include "support/films.h"

@@ -7,9 +7,9 @@
 #include <string>
 #include <string_view>
 
-#include "formats/ray/ray_format.h"
-#include "formats/ray/ray_names.h"
-#include "formats/ray/ray_writer.h"
+#include "formats/ray/file/format.h"
+#include "formats/ray/syntax/names.h"
+#include "formats/ray/write/writer.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   trace::Messages messages;

@@ -32,20 +32,20 @@ double shadowAlong(const std::vector<SurfaceCorner>& corners, int axis) {
 
 /// The same from the crossings of parallel rays.
 double crossingsAlong(const Shape& shape, const Box3& box, int axis) {
-  constexpr int kRays = 200;
+  constexpr int kRows = 200;
   const int j = (axis + 1) % 3, k = (axis + 2) % 3;
   const TracedShape traced = prepare(shape);
   double count = 0;
-  for (int a = 0; a < kRays; ++a)
-    for (int b = 0; b < kRays; ++b) {
+  for (int a = 0; a < kRows; ++a)
+    for (int b = 0; b < kRows; ++b) {
       Ray ray;
       ray.origin[axis] = box.low[axis] - 1;
-      ray.origin[j] = box.low[j] + box.size()[j] * (a + 0.5) / kRays;
-      ray.origin[k] = box.low[k] + box.size()[k] * (b + 0.5) / kRays;
+      ray.origin[j] = box.low[j] + box.size()[j] * (a + 0.5) / kRows;
+      ray.origin[k] = box.low[k] + box.size()[k] * (b + 0.5) / kRows;
       ray.direction[axis] = 1;
       count += static_cast<double>(crossingsOf(traced, ray).size());
     }
-  return 2 * count * box.size()[j] * box.size()[k] / (kRays * kRays);
+  return 2 * count * box.size()[j] * box.size()[k] / (kRows * kRows);
 }
 
 TEST(Tessellate, EveryShapeHasTrianglesWithinItsBounds) {

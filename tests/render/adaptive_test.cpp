@@ -3,8 +3,8 @@
 
 #include <thread>
 
-#include "render/explain.h"
-#include "render/passes.h"
+#include "render/picture/explain.h"
+#include "render/picture/passes.h"
 #include "support/scenes.h"
 
 namespace trace::test::adaptive_test {

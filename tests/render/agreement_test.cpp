@@ -1,6 +1,6 @@
 // Integrators against one another, tile by tile: rooms with an open lamp, a mirror, glass, and a lamp behind
 // a door. `ray selftest` does the same with more.
-#include "render/agreement.h"
+#include "render/picture/agreement.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "geometry/shapes/square.h"
 #include "image/srgb.h"
 #include "math/hypothesis.h"
-#include "render/explain.h"
+#include "render/picture/explain.h"
 #include "shading/materials/conductor.h"
 #include "shading/materials/oren_nayar.h"
 #include "shading/materials/rough_glass.h"

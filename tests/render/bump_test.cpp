@@ -5,8 +5,8 @@
 
 #include "geometry/shapes/plane.h"
 #include "geometry/shapes/sphere.h"
-#include "render/tracer.h"
-#include "render/world.h"
+#include "render/rays/tracer.h"
+#include "render/world/world.h"
 #include "shading/materials/principled.h"
 #include "shading/textures/formula.h"
 #include "shading/textures/image_map.h"

@@ -3,7 +3,7 @@
 
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/square.h"
-#include "render/photons.h"
+#include "render/photons/photons.h"
 #include "support/scenes.h"
 
 namespace trace::test::caustics_test {

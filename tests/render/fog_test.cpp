@@ -1,5 +1,5 @@
 // Fog against closed forms and quadrature.
-#include "render/fog.h"
+#include "render/rays/fog.h"
 
 #include <gtest/gtest.h>
 

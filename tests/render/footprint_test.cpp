@@ -1,6 +1,6 @@
 // How texture coordinates and normals change along surfaces, and the footprints of rays: held against places
 // and rays nearby.
-#include "render/footprint.h"
+#include "render/world/footprint.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,10 @@
 
 #include "geometry/mesh/mesh_uv.h"
 #include "geometry/shapes/plane.h"
-#include "render/explain.h"
-#include "render/pixel.h"
-#include "render/world.h"
+#include "render/integrators/make_integrator.h"
+#include "render/picture/explain.h"
+#include "render/samples/pixel.h"
+#include "render/world/world.h"
 #include "shading/optics.h"
 #include "shading/textures/checker.h"
 #include "shading/textures/image_map.h"

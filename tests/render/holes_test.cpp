@@ -5,7 +5,7 @@
 
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
-#include "render/explain.h"
+#include "render/picture/explain.h"
 #include "shading/material_list.h"
 #include "shading/textures/checker.h"
 #include "support/scenes.h"

@@ -1,5 +1,5 @@
 // What a ray is inside of: nested and overlapping bodies of glass.
-#include "render/interfaces.h"
+#include "render/world/interfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
 #include "render/integrators/whitted.h"
-#include "render/ray_tree.h"
+#include "render/rays/ray_tree.h"
 #include "support/scenes.h"
 
 namespace trace::test::interfaces_test {

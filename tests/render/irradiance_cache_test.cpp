@@ -1,10 +1,10 @@
 // The irradiance cache: its gradients against closed forms, what it blends, and pictures with it.
-#include "render/irradiance_cache.h"
+#include "render/maps/irradiance_cache.h"
 
 #include <gtest/gtest.h>
 
 #include "geometry/shapes/square.h"
-#include "render/explain.h"
+#include "render/picture/explain.h"
 #include "support/quarters.h"
 #include "support/random.h"
 #include "support/rooms.h"

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/shapes/square.h"
-#include "render/explain.h"
+#include "render/picture/explain.h"
 #include "shading/materials/conductor.h"
 #include "support/random.h"
 #include "support/rooms.h"

@@ -1,5 +1,5 @@
 // The choice among many lights: its probabilities, and that no light is forgotten.
-#include "render/light_tree.h"
+#include "render/world/light_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include "base/match.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/square.h"
-#include "render/explain.h"
-#include "render/lamps.h"
+#include "render/lights/lamps.h"
+#include "render/picture/explain.h"
 #include "support/random.h"
 #include "support/rooms.h"
 

@@ -9,7 +9,7 @@
 #include "geometry/shapes/plane.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
-#include "render/media.h"
+#include "render/media/media.h"
 #include "shading/materials/principled.h"
 #include "shading/materials/thin_glass.h"
 #include "support/lights.h"

@@ -7,8 +7,8 @@
 #include "geometry/shapes/square.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
-#include "render/explain.h"
-#include "render/lamps.h"
+#include "render/lights/lamps.h"
+#include "render/picture/explain.h"
 #include "support/random.h"
 #include "support/rooms.h"
 

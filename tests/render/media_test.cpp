@@ -1,5 +1,5 @@
 // Media against closed forms, quadrature and Chandrasekhar's half space.
-#include "render/media.h"
+#include "render/media/media.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
-#include "render/explain.h"
+#include "render/picture/explain.h"
 #include "shading/medium.h"
 #include "shading/textures/checker.h"
 #include "shading/textures/gradient.h"

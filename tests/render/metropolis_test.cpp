@@ -1,5 +1,5 @@
 // Chains among the samples of a picture: they must find what samples taken one by one find.
-#include "render/metropolis.h"
+#include "render/chains/metropolis.h"
 
 #include <gtest/gtest.h>
 

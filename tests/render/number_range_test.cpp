@@ -1,6 +1,6 @@
 // What is too far away, too large or too small for its lengths to be squared is left out, with a warning; the
 // rest of the picture is as if it had never been there.
-#include "render/number_range.h"
+#include "render/world/number_range.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // What rays see that meet nothing: which source, where in it, and that mirrors and glass see what the eye
 // sees.
-#include "render/outside.h"
+#include "render/world/outside.h"
 
 #include <gtest/gtest.h>
 
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
-#include "render/explain.h"
+#include "render/picture/explain.h"
 #include "support/scenes.h"
 
 namespace trace::test::outside_test {

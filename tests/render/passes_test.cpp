@@ -1,5 +1,5 @@
 // What passes measure, against places and distances known by hand.
-#include "render/passes.h"
+#include "render/picture/passes.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/sphere.h"
-#include "render/agreement.h"
+#include "render/picture/agreement.h"
 #include "support/rooms.h"
 
 namespace trace::test::photon_edges_test {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "geometry/shapes/cube.h"
-#include "render/agreement.h"
+#include "render/picture/agreement.h"
 #include "shading/material_list.h"
 #include "support/rooms.h"
 

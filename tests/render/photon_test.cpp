@@ -3,8 +3,8 @@
 
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/square.h"
-#include "render/explain.h"
-#include "render/photons.h"
+#include "render/photons/photons.h"
+#include "render/picture/explain.h"
 #include "shading/materials/conductor.h"
 #include "shading/materials/thin_glass.h"
 #include "support/quarters.h"

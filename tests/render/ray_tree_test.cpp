@@ -1,5 +1,5 @@
 // The record of one sample's rays: it adds up to the picture, and says what happened.
-#include "render/ray_tree.h"
+#include "render/rays/ray_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include "geometry/shapes/csg.h"
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/square.h"
-#include "render/explain.h"
-#include "render/visited_boxes.h"
+#include "render/picture/explain.h"
+#include "render/rays/visited_boxes.h"
 #include "support/scenes.h"
 
 namespace trace::test::ray_tree_test {

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "geometry/shapes/sphere.h"
-#include "render/light_image.h"
+#include "render/picture/light_image.h"
 #include "support/rooms.h"
 
 namespace trace::test::region_test {

@@ -6,8 +6,8 @@
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
-#include "render/integrator.h"
-#include "render/passes.h"
+#include "render/picture/passes.h"
+#include "render/samples/integrator.h"
 #include "support/scenes.h"
 
 namespace trace::test::render_test {

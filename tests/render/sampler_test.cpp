@@ -1,5 +1,5 @@
 // Numbers of samples: where they lie, and that what one ray draws does not move what another gets.
-#include "render/sampler.h"
+#include "render/samples/sampler.h"
 
 #include <gtest/gtest.h>
 

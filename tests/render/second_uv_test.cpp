@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "geometry/mesh/mesh.h"
-#include "render/tracer.h"
-#include "render/world.h"
+#include "render/rays/tracer.h"
+#include "render/world/world.h"
 #include "shading/textures/image_map.h"
 #include "support/seen.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "geometry/shapes/square.h"
-#include "render/tracer.h"
+#include "render/rays/tracer.h"
 #include "support/scenes.h"
 
 namespace trace::test::shadow_ray_test {

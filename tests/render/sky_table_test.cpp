@@ -1,5 +1,5 @@
 // Directions by the brightness of what is around.
-#include "render/sky_table.h"
+#include "render/lights/sky_table.h"
 
 #include <gtest/gtest.h>
 

@@ -5,9 +5,9 @@
 
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
-#include "render/explain.h"
-#include "render/passes.h"
-#include "render/pixel.h"
+#include "render/picture/explain.h"
+#include "render/picture/passes.h"
+#include "render/samples/pixel.h"
 #include "support/scenes.h"
 
 namespace trace::test::subdivide_test {

@@ -1,5 +1,5 @@
 // Bodies in which light spreads: three ways against one another and against closed forms.
-#include "render/subsurface.h"
+#include "render/paths/subsurface.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
-#include "render/explain.h"
-#include "render/photons.h"
+#include "render/photons/photons.h"
+#include "render/picture/explain.h"
 #include "shading/materials/subsurface.h"
 #include "support/half_space.h"
 #include "support/rooms.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "math/warp.h"
-#include "render/explain.h"
+#include "render/picture/explain.h"
 #include "support/ball.h"
 #include "support/scenes.h"
 

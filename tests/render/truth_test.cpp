@@ -5,7 +5,7 @@
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
-#include "render/agreement.h"
+#include "render/picture/agreement.h"
 #include "scene/conventions.h"
 #include "shading/materials/conductor.h"
 #include "support/rooms.h"

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "image/tone.h"
-#include "render/integrator.h"
-#include "render/passes.h"
-#include "render/render.h"
+#include "render/integrators/make_integrator.h"
+#include "render/picture/passes.h"
+#include "render/picture/render.h"
 #include "support/shapes.h"
 
 namespace trace::test {

@@ -5,8 +5,8 @@
 
 #include <utility>
 
-#include "render/hit.h"
-#include "render/world.h"
+#include "render/world/hit.h"
+#include "render/world/world.h"
 
 namespace trace::test {
 

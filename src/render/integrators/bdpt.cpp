@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "render/firefly.h"
-#include "render/footprint.h"
 #include "render/integrators/bdpt_paths.h"
-#include "render/subsurface.h"
+#include "render/paths/subsurface.h"
+#include "render/rays/firefly.h"
+#include "render/world/footprint.h"
 #include "shading/materials/subsurface.h"
 
 namespace trace {

@@ -9,10 +9,10 @@
 //   t = 1    a place of the path from the light is seen by the camera: it lands anywhere in the picture
 //   else     a place of one and a place of the other see each other
 //
-// Places lie on surfaces and in media (render/path_place.h). The same path can come about in several ways; w
-// is the power heuristic over their densities. Each path carries two partial sums of density ratios (van
-// Antwerpen, Recursive MIS Computation for Streaming BDPT on the GPU, 2011; Georgiev, Implementing Vertex
-// Connection and Merging, 2012), so that w takes no loop:
+// Places lie on surfaces and in media (render/paths/path_place.h). The same path can come about in several
+// ways; w is the power heuristic over their densities. Each path carries two partial sums of density ratios
+// (van Antwerpen, Recursive MIS Computation for Streaming BDPT on the GPU, 2011; Georgiev, Implementing
+// Vertex Connection and Merging, 2012), so that w takes no loop:
 //
 //   vcm  densities of all ways in which the place was not joined from the other end, over that of this path
 //   vc   those in which the place before it was not reached from this end, likewise
@@ -24,8 +24,8 @@
 // begins no path in a medium; it is asked there.
 //
 // A path from the camera goes through a body in which light spreads as a path tracer does: from where light
-// comes out to where it went in (render/subsurface.h), which count as one place of it. A path from a light
-// knows no way through: its density to have come out is 0, so the sums begin anew behind a body.
+// comes out to where it went in (render/paths/subsurface.h), which count as one place of it. A path from a
+// light knows no way through: its density to have come out is 0, so the sums begin anew behind a body.
 //
 // Use it for lights that visible surfaces do not see: behind shades, shining at ceilings, or through glass.
 // Not for lights in the open, where path takes three to four times as many samples in the same time, nor for
@@ -34,11 +34,11 @@
 
 #include <memory>
 
-#include "render/gather.h"
-#include "render/integrator.h"
-#include "render/lamps.h"
-#include "render/light_starts.h"
-#include "render/media.h"
+#include "render/lights/lamps.h"
+#include "render/lights/light_starts.h"
+#include "render/media/media.h"
+#include "render/rays/gather.h"
+#include "render/samples/integrator.h"
 #include "shading/cameras/importance.h"
 
 namespace trace {

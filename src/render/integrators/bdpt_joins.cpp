@@ -1,9 +1,9 @@
 // Where the two paths of Bidirectional are joined: s = 1 and beyond, t = 2 and beyond.
 #include "math/low_discrepancy.h"
-#include "render/firefly.h"
-#include "render/fog.h"
 #include "render/integrators/bdpt_paths.h"
-#include "render/light_choice.h"
+#include "render/lights/light_choice.h"
+#include "render/rays/firefly.h"
+#include "render/rays/fog.h"
 
 namespace trace {
 
@@ -73,7 +73,7 @@ void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path,
   Tracer& tracer = sum.tracer();
   Sampler numbers = sampler.branch(Branch::lamp);
   const Real which = numbers.next();
-  const auto place = lamps_.choose(at.point(), which, numbers.next2());
+  auto place = lamps_.choose(at.point(), which, numbers.next2());
   if (!place) return;
   const Vec3& toLight = place->toLight;
   const int t = path.t();

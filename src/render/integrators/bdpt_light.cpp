@@ -1,8 +1,8 @@
 // The path from a light of Bidirectional, and where it lands in the picture: t = 1.
 #include <algorithm>
 
-#include "render/fog.h"
 #include "render/integrators/bdpt_paths.h"
+#include "render/rays/fog.h"
 
 namespace trace {
 

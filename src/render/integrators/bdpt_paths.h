@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "render/integrators/bdpt.h"
-#include "render/path_place.h"
+#include "render/paths/path_place.h"
 #include "shading/materials/subsurface.h"
 
 namespace trace {

@@ -4,8 +4,8 @@
 // Use it to check a mesh and its normals. Not as data for other programs: the pass normal has the numbers.
 #pragma once
 
-#include "render/gather.h"
-#include "render/integrator.h"
+#include "render/rays/gather.h"
+#include "render/samples/integrator.h"
 
 namespace trace {
 

@@ -1,6 +1,6 @@
 #include "render/integrators/occlusion.h"
 
-#include "render/interaction.h"
+#include "render/paths/interaction.h"
 
 namespace trace {
 

@@ -4,7 +4,7 @@
 // Use it to see where things touch. Not for light or colours: all is of clay, and without fog.
 #pragma once
 
-#include "render/integrator.h"
+#include "render/samples/integrator.h"
 
 namespace trace {
 

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <utility>
 
-#include "render/firefly.h"
-#include "render/footprint.h"
 #include "render/integrators/path_state.h"
-#include "render/interaction.h"
-#include "render/media.h"
-#include "render/photons.h"
-#include "render/render.h"
-#include "render/subsurface.h"
+#include "render/media/media.h"
+#include "render/paths/interaction.h"
+#include "render/paths/subsurface.h"
+#include "render/photons/photons.h"
+#include "render/rays/firefly.h"
+#include "render/samples/sampler.h"
+#include "render/world/footprint.h"
 #include "shading/materials/subsurface.h"
 #include "shading/optics.h"
 
@@ -344,7 +344,7 @@ void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, c
   // The second pair of the numbers that led here: what depends on both is spread evenly, too.
   const Vec2 where = sampler.branch(Branch::arrival).second2();
   const Real which = lamps_.isOne() ? 0 : numbers.next();
-  const auto place = lamps_.choose(at.lightPlace(), which, where);
+  auto place = lamps_.choose(at.lightPlace(), which, where);
   if (!place) return;
   const Vec3 toEye = -at.ray.direction;
   const Color scattered =

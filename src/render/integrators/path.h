@@ -24,12 +24,12 @@
 
 #include <memory>
 
-#include "render/gather.h"
-#include "render/integrator.h"
-#include "render/irradiance_cache.h"
-#include "render/lamps.h"
-#include "render/media.h"
-#include "render/photon_map.h"
+#include "render/lights/lamps.h"
+#include "render/maps/irradiance_cache.h"
+#include "render/maps/photon_map.h"
+#include "render/media/media.h"
+#include "render/rays/gather.h"
+#include "render/samples/integrator.h"
 
 namespace trace {
 

@@ -6,10 +6,10 @@
 #include <algorithm>
 
 #include "base/budget.h"
-#include "render/hashed_numbers.h"
 #include "render/integrators/path_state.h"
-#include "render/interaction.h"
-#include "render/pixel.h"
+#include "render/paths/interaction.h"
+#include "render/samples/hashed_numbers.h"
+#include "render/samples/pixel.h"
 #include "shading/materials/lambert.h"
 #include "shading/optics.h"
 

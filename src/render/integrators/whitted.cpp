@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "math/low_discrepancy.h"
-#include "render/fog.h"
-#include "render/footprint.h"
-#include "render/gather.h"
-#include "render/interaction.h"
-#include "render/media.h"
-#include "render/subsurface.h"
+#include "render/media/media.h"
+#include "render/paths/interaction.h"
+#include "render/paths/subsurface.h"
+#include "render/rays/fog.h"
+#include "render/rays/gather.h"
+#include "render/world/footprint.h"
 #include "shading/dispersion.h"
 #include "shading/materials/subsurface.h"
 #include "shading/optics.h"
@@ -230,7 +230,7 @@ void Whitted::addLamps(Gather& sum, const Interaction& at, bool glossy, const Sa
   const Real which = numbers.next();
   for (int n = 0; n < rays; ++n) {
     const Vec2 u = rotated(sobolPoint(static_cast<std::uint32_t>(n)), first);
-    const auto place = lamps_.choose(at.lightPlace(), (n + which) / rays, u);
+    auto place = lamps_.choose(at.lightPlace(), (n + which) / rays, u);
     if (!place) continue;
     const Scatter parts = scatter(at.bsdf(), at.frame, place->toLight, -at.ray.direction);
     Color scattered =

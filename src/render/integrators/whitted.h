@@ -13,10 +13,10 @@
 // scene (lamp-samples asks them), nor for caustics without photons.
 #pragma once
 
-#include "render/gather.h"
-#include "render/integrator.h"
-#include "render/lamps.h"
-#include "render/photons.h"
+#include "render/lights/lamps.h"
+#include "render/photons/photons.h"
+#include "render/rays/gather.h"
+#include "render/samples/integrator.h"
 #include "shading/materials/subsurface.h"
 
 namespace trace {

@@ -1,5 +1,5 @@
-// Where a light shines and how strongly: what a choice among many lights knows of each (render/light_tree.h).
-// It may be said to shine where it does not; never the other way round.
+// Where a light shines and how strongly: what a choice among many lights knows of each
+// (render/world/light_tree.h). It may be said to shine where it does not; never the other way round.
 #pragma once
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 // clear layer (shading/coating.h) that mirrors. What is said are the coefficients of Jensen, Marschner, Levoy
 // and Hanrahan (SIGGRAPH 2001), whose table of measured ones is part of the library of materials.
 //
-// All integrators follow light through the body (render/subsurface.h), by one of three ways to tell how far
-// it gets. As the model below it comes out where it went in: the limit of a body that is large against the
-// way of light in it. So the model is reciprocal, and gives back at most what arrives; all of it where
+// All integrators follow light through the body (render/paths/subsurface.h), by one of three ways to tell how
+// far it gets. As the model below it comes out where it went in: the limit of a body that is large against
+// the way of light in it. So the model is reciprocal, and gives back at most what arrives; all of it where
 // nothing is absorbed.
 #pragma once
 

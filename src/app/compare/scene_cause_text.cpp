@@ -1,0 +1,111 @@
+// What the variants of a scene explain, in words: see scene_cause.h.
+#include <cstdio>
+#include <filesystem>
+
+#include "app/compare/scene_cause.h"
+#include "base/budget.h"
+#include "base/printable.h"
+#include "base/text.h"
+#include "formats/format.h"
+
+namespace trace {
+namespace {
+
+std::string rmseText(double value, const std::string& unit) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return "RMSE " + std::string(text) + " " + unit;
+}
+
+/// "what scene.ray gives without shadows"
+std::string givenText(const SceneCauses& causes, const SceneMatch& match) {
+  const std::string how = match.text();
+  return "what " + printable(causes.file) + " gives" + (how.empty() ? "" : " " + printable(how));
+}
+
+std::string placeText(const PixelPlace& pixel) {
+  return "at " + std::to_string(pixel.x) + "," + std::to_string(pixel.y);
+}
+
+std::string testText(const SceneCauses& causes, const std::string& test) {
+  if (causes.test) {
+    const bool isPlain = causes.test->text().empty();
+    const std::string left = isPlain && causes.test->rmse > 0
+                                 ? rmseText(causes.test->rmse, causes.unit) + " is left"
+                                 : leftText(causes.test->rmse, causes.unit);
+    return test + " is " + givenText(causes, *causes.test) + "; " + left + " in " +
+           std::to_string(causes.pixels) + " pixels compared";
+  }
+  const std::string none = "none of " + std::to_string(causes.tried) + " variants of " +
+                           printable(causes.file) + " explains " + test;
+  if (!causes.nearest) return none;
+  return none + "; the nearest, " + printable(causes.nearest->text()) + ", leaves " +
+         rmseText(causes.nearest->rmse, causes.unit) + " of " + rmseText(causes.rmse, causes.unit);
+}
+
+std::string pixelText(const PixelCause& cause, const std::string& test) {
+  const std::string place = placeText(cause.pixel);
+  if (!cause.text.empty())
+    return place + " " + test + " " + printable(cause.text) +
+           (cause.confirmed > 0 ? "; so it is at " + std::to_string(cause.confirmed) + " of " +
+                                      std::to_string(cause.others) + " other pixels"
+                                : "");
+  std::string parts;
+  for (const PixelCause::Part& part : cause.parts)
+    parts += (parts.empty() ? "" : "; ") + lightText(part.brings) + " " + printable(part.name);
+  return place + " no single term explains " + test + "; the scene gives there " +
+         (parts.empty() ? "no light" : parts);
+}
+
+}  // namespace
+
+std::string SceneMatch::text() const {
+  std::vector<std::string> all = variants;
+  if (change.parts() > 0) all.push_back(change.text());
+  std::string text;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == all.size() ? " and " : ", ") + all[i];
+  return text;
+}
+
+std::vector<std::string> sceneSentences(const SceneCauses& causes, const std::string& reference,
+                                        const std::string& test) {
+  std::vector<std::string> all{testText(causes, test)};
+  if (!causes.reference)
+    all.push_back(reference + " is not what " + printable(causes.file) +
+                  " gives: are these the options that it was rendered with?");
+  else if (!causes.reference->text().empty())
+    all.push_back(reference + " is " + givenText(causes, *causes.reference));
+  if (!causes.stopped.empty())
+    all.push_back("stopped after " + std::to_string(causes.tried) + " of " + std::to_string(causes.variants) +
+                  " variants: " + causes.stopped);
+  if (causes.pixel) all.push_back(pixelText(*causes.pixel, test));
+  return all;
+}
+
+std::string sceneCauseLine(const std::string& folder, const std::string& picture, SceneQuestion question,
+                           const PictureDifference& d, bool alone) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  for (const SceneFormat& format : sceneFormats())
+    for (const std::string_view suffix : format.suffixes) {
+      const fs::path file = (fs::path(folder) / picture).replace_extension(suffix);
+      if (question.file.empty() && fs::is_regular_file(file, error)) question.file = file.string();
+    }
+  if (question.file.empty() || !d.numbers.sameSize) return "";
+  if (!alone) question.choices.push_back({"threads", "1", {}});
+  try {
+    const auto causes =
+        sceneCauses(question, d.reference, d.test, {d.numbers.worstX, d.numbers.worstY});
+    std::string line;
+    if (causes)
+      for (const std::string& sentence : sceneSentences(*causes, "the reference", "the picture"))
+        line += (line.empty() ? "" : "; ") + sentence;
+    return line;
+  } catch (const Error& failed) {
+    lookAtBudget();  // if the time of all is over, this scene is not at fault
+    return "its scene says nothing: " + failed.messages().front().what;
+  }
+}
+
+}  // namespace trace

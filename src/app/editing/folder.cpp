@@ -1,0 +1,51 @@
+#include "app/editing/folder.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include "base/error.h"
+
+namespace trace {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+}  // namespace
+
+std::vector<FolderEntry> listFolder(const std::string& path, const std::vector<std::string>& suffixes) {
+  std::error_code error;
+  std::vector<FolderEntry> entries;
+  for (fs::directory_iterator i(path, error), end; !error && i != end; i.increment(error)) {
+    std::error_code ignored;
+    const std::string name = i->path().filename().string();
+    if (name.starts_with(".")) continue;
+    const bool folder = i->is_directory(ignored);
+    const auto fits = [&](const std::string& suffix) { return lower(name).ends_with(suffix); };
+    if (!folder && !suffixes.empty() && std::none_of(suffixes.begin(), suffixes.end(), fits)) continue;
+    const std::uint64_t bytes = folder ? 0 : i->file_size(ignored);
+    entries.push_back({name, folder, ignored ? 0 : bytes});
+  }
+  if (error) throw Error(Fault::io, "cannot list \"" + path + "\": " + error.message());
+  std::sort(entries.begin(), entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
+    if (a.folder != b.folder) return a.folder;
+    const std::string x = lower(a.name), y = lower(b.name);
+    return x != y ? x < y : a.name < b.name;
+  });
+  return entries;
+}
+
+std::string nearestFolder(const std::string& path) {
+  std::error_code error;
+  fs::path folder = path.empty() ? fs::current_path(error) : fs::absolute(path, error);
+  while (!fs::is_directory(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
+  return folder.lexically_normal().string();
+}
+
+}  // namespace trace

@@ -1,0 +1,23 @@
+// A ray tree as coloured lines in space: what an OBJ file, a drawing and the studio show of it.
+#pragma once
+
+#include <vector>
+
+#include "render/rays/ray_tree.h"
+
+namespace trace {
+
+struct RaySegment {
+  int node = 0;  ///< index into RayTree::nodes
+  RayLooks looks = RayLooks::camera;
+  Vec3 from, to;
+  bool leaves = false;  ///< it continues infinite; drawn in part
+};
+
+/// The medium that sent the path of the ray on; null if none did.
+const MediumTerm* scatteredIn(const RayNode& node);
+
+/// One for each ray, in the tree's order. What leaves the scene is drawn for a third of the tree's size.
+std::vector<RaySegment> raySegments(const RayTree& tree);
+
+}  // namespace trace

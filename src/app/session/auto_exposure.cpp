@@ -1,0 +1,75 @@
+#include "app/session/auto_exposure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/session/darkness.h"
+#include "image/development.h"
+#include "image/srgb.h"
+
+namespace trace {
+namespace {
+
+constexpr double kMiddle = 0.52;  // the mean of the values shown, 0 to 1: a little above middle grey in sRGB
+constexpr double kBright = 0.85;  // what the brightest are shown as at most, except for
+constexpr double kLights = 0.05;  // this share: lights and highlights,
+constexpr double kLamp = 30;  // and what is so many times as bright as the middle one: lamps, however large
+constexpr double kMostStops = 30;  // up or down
+constexpr double kNothing = 1e-6;  // relative to the brightest: black, as far as an eye sees
+
+double luminanceShown(const Color& color, Development development, double stops) {
+  development.exposure += stops;
+  return std::clamp(luminanceOf(developed(color, development)), 0.0, 1.0);
+}
+
+double meanShown(const Picture& picture, const std::vector<std::size_t>& lit, const Development& development,
+                 double stops) {
+  double sum = 0;
+  for (const std::size_t i : lit) sum += luminanceShown(picture.pixels[i], development, stops);
+  return sum / static_cast<double>(lit.size());
+}
+
+}  // namespace
+
+Real exposureFor(const Picture& picture, const Development& development) {
+  double most = 0;
+  for (const Color& c : picture.pixels)
+    if (isFinite(c)) most = std::max(most, luminanceOf(c));
+  std::vector<std::size_t> lit;
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+    if (isFinite(picture.pixels[i]) && luminanceOf(picture.pixels[i]) > kNothing * most) lit.push_back(i);
+  if (lit.empty() || development.tone == Tone::stretch) return 0;
+  const auto darker = [&](std::size_t a, std::size_t b) {
+    return luminanceOf(picture.pixels[a]) < luminanceOf(picture.pixels[b]);
+  };
+  const auto placeOf = [&](double share) {
+    return lit.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(lit.size() - 1));
+  };
+  const auto middle = placeOf(0.5), bright = placeOf(1 - kLights);
+  std::nth_element(lit.begin(), bright, lit.end(), darker);
+  std::nth_element(lit.begin(), middle, bright, darker);
+  const Color usual = picture.pixels[*middle] * kLamp;
+  const Color brightest = std::min(picture.pixels[*bright], usual, [](const Color& a, const Color& b) {
+    return luminanceOf(a) < luminanceOf(b);
+  });
+  double low = -kMostStops, high = kMostStops;
+  for (int i = 0; i < 40; ++i) {
+    const double stops = (low + high) / 2;
+    const bool dark = meanShown(picture, lit, development, stops) < kMiddle &&
+                      luminanceShown(brightest, development, stops) < kBright;
+    (dark ? low : high) = stops;
+  }
+  return std::round(high * 100) / 100;
+}
+
+Real settleExposure(const World& world, Settings& settings) {
+  if (!settings.autoExposure) return 0;
+  Development development = developmentOf(settings);
+  development.exposure = 0;
+  const Real stops = exposureFor(tracedCells(world, settings), development);
+  settings.exposure += stops;
+  settings.autoExposure = false;
+  return stops;
+}
+
+}  // namespace trace

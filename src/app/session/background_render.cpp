@@ -1,0 +1,226 @@
+#include "app/session/background_render.h"
+
+#include <algorithm>
+
+#include "render/picture/passes.h"
+
+namespace trace {
+namespace {
+
+/// How much smaller the coarse pictures are: together they cost a twelfth of the real one.
+constexpr int kCoarse[] = {16, 8, 4};
+/// Smaller pictures than this show nothing.
+constexpr int kLeastPreview = 16;
+
+Settings reduced(const Settings& settings, Size whole, int factor) {
+  Settings small = settings;
+  small.width = std::max(1, whole.width / factor);
+  small.height = std::max(1, whole.height / factor);
+  small.spp = 1;
+  small.subdivide = 0;
+  small.denoise = false;
+  small.timeLimit = 0;
+  if (!settings.region.whole()) {
+    const auto up = [&](int x) { return (x + factor - 1) / factor; };
+    const Region& r = settings.region;
+    small.region = {r.x0 / factor, r.y0 / factor, up(r.x1), up(r.y1)};
+  }
+  return small;
+}
+
+}  // namespace
+
+Picture enlarged(const Picture& small, Size size) {
+  Picture large(size.width, size.height);
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x)
+      large.at(x, y) = small.at(static_cast<int>(std::int64_t{x} * small.width / size.width),
+                                static_cast<int>(std::int64_t{y} * small.height / size.height));
+  return large;
+}
+
+BackgroundRender::BackgroundRender() {
+  coarseJob_.patience = {};
+  thread_ = std::thread([this] { work(); });
+}
+
+BackgroundRender::~BackgroundRender() {
+  stop();
+  {
+    const std::lock_guard lock(mutex_);
+    quit_ = true;
+  }
+  wake_.notify_all();
+  thread_.join();
+}
+
+void BackgroundRender::start(std::shared_ptr<const Scene> scene, const Settings& settings, SceneAt sceneAt) {
+  stop();
+  {
+    const std::lock_guard lock(mutex_);
+    request_ = Request{std::move(scene), settings, std::move(sceneAt), state_.number + 1};
+    state_ = {Phase::building, 0, 0, {}, request_->number};
+    begin_ = std::chrono::steady_clock::now();
+    remaining_ = {};
+  }
+  wake_.notify_all();
+}
+
+void BackgroundRender::stop() {
+  const std::lock_guard lock(mutex_);
+  request_.reset();
+  if (!state_.working()) return;
+  state_.phase = Phase::stopped;
+  coarseJob_.cancel = true;
+  if (session_) session_->job().cancel = true;
+}
+
+BackgroundRender::State BackgroundRender::state() {
+  const std::lock_guard lock(mutex_);
+  if (state_.working()) {
+    state_.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    if (state_.phase == Phase::tracing) {
+      const Film& film = session_->film();
+      state_.fraction =
+          film.noiseTarget() > 0 ? std::max(state_.fraction, film.shareDone()) : session_->job().fraction();
+      state_.remaining = remaining_.update(state_.elapsed - tracingBegan_, state_.fraction);
+    }
+  }
+  return state_;
+}
+
+std::shared_ptr<const Session> BackgroundRender::session() const {
+  const std::lock_guard lock(mutex_);
+  return session_;
+}
+
+Picture BackgroundRender::picture() const {
+  Picture picture;
+  std::shared_ptr<Session> session;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!session_) return {};
+    if (denoised_) return *denoised_;
+    picture = coarse_;
+    session = session_;
+  }
+  const Size size = session->size();
+  if (picture.width != size.width || picture.height != size.height)
+    picture = Picture(size.width, size.height);
+  session->film().copyDone(picture);
+  return picture;
+}
+
+std::uint64_t BackgroundRender::version() const {
+  const std::lock_guard lock(mutex_);
+  const auto done = session_ ? static_cast<std::uint64_t>(session_->job().done.load()) : 0;
+  return (state_.number << 40) + (coarseVersion_ << 32) + done + (denoised_ ? 1 : 0);
+}
+
+RenderResult BackgroundRender::result() const {
+  const std::lock_guard lock(mutex_);
+  return result_;
+}
+
+std::vector<Message> BackgroundRender::takeMessages() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(messages_, {});
+}
+
+void BackgroundRender::work() {
+  for (;;) {
+    Request request;
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait(lock, [&] { return quit_ || request_; });
+      if (quit_) return;
+      request = *std::exchange(request_, {});
+      coarseJob_.cancel = false;
+    }
+    const auto fail = [&](std::vector<Message> messages) {
+      const std::lock_guard lock(mutex_);
+      messages_.insert(messages_.end(), messages.begin(), messages.end());
+      if (state_.number == request.number) state_.phase = Phase::failed;
+    };
+    try {
+      run(request);
+    } catch (const Error& error) {
+      fail(error.messages());
+    } catch (const std::bad_alloc&) {
+      fail({{.what = "out of memory", .hint = "choose a smaller width or a simpler scene"}});
+    } catch (const std::exception& error) {
+      fail({{.what = error.what()}});
+    }
+  }
+}
+
+void BackgroundRender::run(const Request& request) {
+  const auto session = std::make_shared<Session>();
+  session->job().patience = {};  // who stops it wants to see something else
+  session->open(*request.scene, request.settings, request.sceneAt);
+  session->build(built_.get());
+  built_ = session;
+  const auto isCurrent = [&] { return state_.number == request.number && state_.working(); };
+  {
+    const std::lock_guard lock(mutex_);
+    const std::vector<Message>& warnings = session->messages().all();
+    messages_.insert(messages_.end(), warnings.begin(), warnings.end());
+    if (!isCurrent()) return;
+    // Until the first coarse pass is done the picture before shows through, if it fits and is of the same
+    // scene.
+    const Size size = session->size();
+    const bool another = session_ && session_->scene().file != session->scene().file;
+    if (another || coarse_.width != size.width || coarse_.height != size.height)
+      coarse_ = {};
+    else if (session_)
+      session_->film().copyDone(coarse_);
+    session_ = session;
+    denoised_.reset();
+    state_.phase = Phase::coarse;
+  }
+  coarsePasses(*session);
+  {
+    const std::lock_guard lock(mutex_);
+    if (!isCurrent()) return;
+    state_.phase = Phase::tracing;
+    tracingBegan_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+  RenderResult result = session->renderPicture();
+  std::optional<Picture> without;
+  if (result.failure.empty() && request.settings.denoise) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (state_.number == request.number && state_.working()) state_.phase = Phase::denoising;
+    }
+    without = denoised(session->film(), session->settings(), coarseJob_);
+  }
+  const std::lock_guard lock(mutex_);
+  if (!result.failure.empty()) messages_.push_back({.what = result.failure});
+  if (state_.number == request.number && session_ == session) {
+    state_.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    state_.fraction = session->job().fraction();
+    state_.phase = result.end == End::finished ? Phase::finished
+                   : result.failure.empty()    ? Phase::stopped
+                                               : Phase::failed;
+    denoised_ = std::move(without);
+    result_ = std::move(result);
+  }
+}
+
+void BackgroundRender::coarsePasses(Session& session) {
+  const Size size = session.size();
+  for (const int factor : kCoarse) {
+    if (size.width / factor < kLeastPreview) continue;
+    const Settings settings = reduced(session.settings(), size, factor);
+    Film film = makeFilm(settings, settings.width, settings.height);
+    coarseJob_.done = 0;
+    coarseJob_.total = 0;
+    if (trace::render(session.moments(), settings, film, coarseJob_).end != End::finished) return;
+    Picture picture = enlarged(film.picture(), size);
+    const std::lock_guard lock(mutex_);
+    coarse_ = std::move(picture);
+    ++coarseVersion_;
+  }
+}
+
+}  // namespace trace

@@ -1,0 +1,321 @@
+#include "app/session/darkness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "base/budget.h"
+#include "base/match.h"
+#include "base/text.h"
+#include "formats/kind_defaults.h"
+#include "geometry/traced.h"
+#include "image/development.h"
+#include "image/srgb.h"
+#include "render/lights/lamps.h"
+#include "render/picture/passes.h"
+#include "render/picture/render.h"
+#include "render/samples/integrator.h"
+#include "scene/integrators.h"
+#include "scene/options.h"
+
+namespace trace {
+namespace {
+
+constexpr int kCellsAcross = 64, kCellsDown = 48;
+constexpr double kDarkLevel = 2;     // a level of 255; a pixel below it is black to the eye
+constexpr double kNearlyAll = 0.98;  // fraction of the picture
+constexpr double kMostSeen = 0.95;   // fraction of the cells in which there is an object
+constexpr double kWanted = 90;       // the mean level of what is seen with the cure
+
+/// The settings of a picture of cells: nothing that only the finished picture needs.
+Settings ofCells(Settings settings) {
+  const Traits traits = traitsOf(settings);
+  settings.width = kCellsAcross;
+  settings.height = kCellsDown;
+  settings.spp = traits.has(Trait::asksAllLights) ? 1 : 16;  // others are noisy
+  settings.subdivide = 0;
+  settings.noiseTarget = 0;
+  settings.denoise = false;
+  settings.passes = {};
+  settings.region = {};
+  settings.outlines = 0;
+  settings.timeLimit = 0;
+  settings.photons = std::min(settings.photons, 50000);
+  settings.photonPasses = 1;
+  settings.caustics = std::min(settings.caustics, 20000);
+  if (traits.has(Trait::byChains)) settings.integrator = IntegratorKind::path;
+  return settings;
+}
+
+/// The level that the eye judges by: the brightest channel, as the file will have it except for what needs
+/// the whole picture.
+double levelOf(const Color& linear, const Development& development) {
+  const Color shown = developed(linear, development);
+  const double most = std::max({shown.r, shown.g, shown.b});
+  return most > 0 ? 255 * std::min(most, 1.0) : 0;  // NaN is black, too
+}
+
+/// Whether each cell shows an object.
+std::vector<char> objectsSeen(const World& world) {
+  std::vector<char> seen;
+  Statistics uncounted;
+  for (int y = 0; y < kCellsDown; ++y)
+    for (int x = 0; x < kCellsAcross; ++x) {
+      checkBudget();
+      const Ray ray = world.camera().ray({(x + 0.5) / kCellsAcross, 1 - (y + 0.5) / kCellsDown});
+      const auto found = world.closest(ray, Faces::both, uncounted);
+      seen.push_back(found && world.camera().sees(found->t));
+    }
+  return seen;
+}
+
+/// Light of the cells with an object: what is there anyway, and what a light adds.
+struct Lit {
+  std::vector<Color> base, added;
+};
+
+double meanLevel(const Lit& lit, double factor, const Development& development) {
+  double sum = 0;
+  for (std::size_t i = 0; i < lit.base.size(); ++i)
+    sum += levelOf(lit.base[i] + lit.added[i] * factor, development);
+  return lit.base.empty() ? 0 : sum / static_cast<double>(lit.base.size());
+}
+
+/// The factor of the added light for which the mean level is the one wanted; nothing if none is.
+std::optional<double> factorFor(const Lit& lit, const Development& development) {
+  double low = 1e-12, high = 1e30;
+  if (meanLevel(lit, high, development) < kWanted) return {};
+  for (int i = 0; i < 200; ++i) {
+    const double middle = std::sqrt(low * high);
+    (meanLevel(lit, middle, development) < kWanted ? low : high) = middle;
+  }
+  return high;
+}
+
+/// The picture of the scene with these lights alone.
+std::vector<Color> seenWith(const Scene& scene, const Settings& settings, const World& world,
+                            std::vector<LightSource> lights, const std::vector<char>& seen) {
+  Scene lit = scene;
+  lit.lights = std::move(lights);
+  Messages known;
+  const Compiled earlier{scene, settings, world};
+  const Settings small = ofCells(settings);
+  const World changed = compile(lit, settings, known, &earlier);
+  Film film = makeFilm(small, kCellsAcross, kCellsDown);
+  Job job;
+  if (render(changed, small, film, job).end != End::finished) lookAtBudget();
+  const Picture picture = film.picture();
+  std::vector<Color> colors;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (seen[i]) colors.push_back(picture.pixels[i]);
+  return colors;
+}
+
+std::string twoDigits(double value) {
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  return toText(unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit);
+}
+std::string rounded(const Color& c) {
+  const auto channel = [](double value) { return value > 0 ? twoDigits(value) : "0"; };
+  return "(" + channel(c.r) + ", " + channel(c.g) + ", " + channel(c.b) + ")";
+}
+std::string rounded(const Vec3& v) {
+  const auto one = [](Real x) { return toText(std::round(x * 100) / 100 + 0.0); };
+  return "(" + one(v.x) + ", " + one(v.y) + ", " + one(v.z) + ")";
+}
+
+const Color* colorOfLight(const Light& light) {
+  return match(light, [](const auto& l) -> const Color* {
+    if constexpr (requires { l.color; }) return &l.color;
+    return nullptr;
+  });
+}
+
+/// It fades with the square of the distance, as point lights do unless they say otherwise.
+bool fades(const Light& light) {
+  return match(light, [](const auto& l) {
+    if constexpr (requires { l.quadratic; }) return l.quadratic > 0;
+    return false;
+  });
+}
+
+struct Cure {
+  Place place;
+  std::string why, hint;
+};
+
+/// The light of the scene that adds most of what there is, and the colour that it needs.
+std::optional<Cure> strongerLight(const Scene& scene, const Settings& settings, const World& world,
+                                  const std::vector<char>& seen) {
+  constexpr std::size_t kMostTried = 8;
+  const Development development = developmentOf(settings);
+  const std::vector<Color> base = seenWith(scene, settings, world, {}, seen);
+  std::optional<Cure> best;
+  double most = 0;
+  std::size_t tried = 0;
+  for (const LightSource& source : scene.lights) {
+    const Color* color = colorOfLight(source.light);
+    if (!color || isBlack(*color) || ++tried > kMostTried) continue;
+    Lit lit{base, seenWith(scene, settings, world, {source}, seen)};
+    double sum = 0;
+    for (std::size_t i = 0; i < base.size(); ++i) {
+      lit.added[i] = lit.added[i] + base[i] * -1;
+      if (isFinite(lit.added[i])) sum += luminanceOf(lit.added[i]);
+    }
+    const auto factor = factorFor(lit, development);
+    if (!factor || sum <= most) continue;
+    most = sum;
+    const std::string field = "color = " + rounded(*color * *factor) + ";";
+    const bool far = fades(source.light);
+    best = Cure{source.place,
+                far ? "; this light fades with the square of the distance (quadratic_attenuation_coeff = 1)"
+                    : "; this light is too weak",
+                field + " in this light brings the visible objects to a mean level of about 90" +
+                    (far ? "; constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0; keeps it from "
+                           "fading"
+                         : "")};
+  }
+  return best;
+}
+
+/// A light beside the eye, where nothing that is seen is in its way.
+std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, const World& world,
+                                  const std::vector<char>& seen) {
+  PointLight light;
+  light.position = world.camera().eye;
+  light.color = Color(1);
+  light.constant = 1;
+  light.linear = light.quadratic = 0;
+  LightSource source;
+  source.light = light;
+  std::vector<LightSource> lights = scene.lights;
+  Lit lit{seenWith(scene, settings, world, lights, seen), {}};
+  lights.push_back(source);
+  lit.added = seenWith(scene, settings, world, std::move(lights), seen);
+  for (std::size_t i = 0; i < lit.base.size(); ++i) lit.added[i] = lit.added[i] + lit.base[i] * -1;
+  const auto factor = factorFor(lit, developmentOf(settings));
+  if (!factor) return {};
+  const bool none = scene.lights.empty() && !shines(scene);
+  const bool ray = scene.format == "ray";
+  return Cure{
+      Place{.file = scene.file}, none ? "; the scene has no light" : "; no light reaches the visible objects",
+      ray ? "point_light { position = " + rounded(light.position) + "; color = " + rounded(Color(*factor)) +
+                "; constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0; } shines from the eye"
+          : "add a light that shines where the camera looks"};
+}
+
+/// Where to look, if nothing is seen.
+std::optional<Cure> lookAround(const Scene& scene) {
+  Box3 all;
+  for (const Object& object : scene.objects) {
+    const Box3 box = object.worldFromObject * prepare(object.shape).bounds();
+    if (!box.empty() && !box.unbounded()) all.extend(box);
+  }
+  if (all.empty()) return {};
+  return Cure{Place{.file = scene.file}, "; no object is in the picture",
+              scene.format == "ray"
+                  ? "look_at = " + rounded(all.center()) +
+                        "; in the camera, in place of viewdir, points it at the objects"
+                  : "turn the camera to " + rounded(all.center()) + ", the middle of the objects"};
+}
+
+/// An emissive object whose shape is not sampled as a light: scattered rays find it at random alone.
+std::optional<Cure> unsampledEmitter(const Scene& scene, const World& world) {
+  if (!scene.lights.empty()) return {};
+  for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+    const Object& object = scene.objects[i];
+    if (!glows(scene.materials[object.material]) || Lamps::canSample(world, i)) continue;
+    return Cure{
+        object.place,
+        "; rays find this emissive " + std::string(object.shape.keyword()) +
+            " at random alone, since its shape is not sampled as a light",
+        "squares, disks, boxes, spheres, cylinders, cones, tori and meshes are; or put a point_light there"};
+  }
+  return {};
+}
+
+std::optional<Cure> cureOf(const Scene& scene, const Settings& settings, const World& world,
+                           const std::vector<char>& seen) {
+  if (std::none_of(seen.begin(), seen.end(), [](char is) { return is != 0; })) return lookAround(scene);
+  if (auto cure = strongerLight(scene, settings, world, seen)) return cure;
+  if (auto cure = unsampledEmitter(scene, world)) return cure;
+  return lightAtTheEye(scene, settings, world, seen);
+}
+
+}  // namespace
+
+Picture cellsOf(const Film& film) {
+  constexpr int kSide = 4;  // so many pixels of a cell are looked at, across and down
+  const Picture whole = film.corners() ? film.picture() : Picture();
+  Picture cells(kCellsAcross, kCellsDown);
+  for (int y = 0; y < kCellsDown; ++y)
+    for (int x = 0; x < kCellsAcross; ++x) {
+      Color& sum = cells.at(x, y);
+      for (int i = 0; i < kSide * kSide; ++i) {
+        const auto pixel = [&](int cell, int part, int count, int pixels) {
+          return std::min(pixels - 1, static_cast<int>((cell + (part + 0.5) / kSide) / count * pixels));
+        };
+        const int px = pixel(x, i % kSide, kCellsAcross, film.width()),
+                  py = pixel(y, i / kSide, kCellsDown, film.height());
+        if (film.corners())
+          sum += whole.at(px, py);
+        else
+          sum += film.ofSamples(px, py) + (film.takesSplats() ? film.ofSplats(px, py) : Color(0));
+      }
+      sum = sum / (kSide * kSide);
+    }
+  return cells;
+}
+
+Picture tracedCells(const World& world, const Settings& settings) {
+  const Settings small = ofCells(settings);
+  Film film = makeFilm(small, kCellsAcross, kCellsDown);
+  Job job;
+  if (render(world, small, film, job).end != End::finished) lookAtBudget();
+  return film.picture();
+}
+
+std::optional<Message> darkness(const Scene& scene, const Settings& settings, const World& world,
+                                const Picture& cells) {
+  const Development development = developmentOf(settings);
+  if (!settings.region.whole() || settings.tone == Tone::stretch || scene.objects.empty() ||
+      hasTrait(settings, Trait::showsData) || settings.unweighted || settings.lightVertices >= 0 ||
+      settings.cameraVertices >= 0)
+    return {};
+  std::vector<char> dark;
+  double level = 0;
+  for (const Color& c : cells.pixels) {
+    level += levelOf(c, development);
+    dark.push_back(levelOf(c, development) < kDarkLevel);
+  }
+  level /= static_cast<double>(cells.pixels.size());
+  const auto all = static_cast<double>(std::count(dark.begin(), dark.end(), 1));
+  if (all < kNearlyAll * static_cast<double>(dark.size())) return {};
+  try {
+    const std::vector<char> seen = objectsSeen(world);
+    double there = 0, darkThere = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      there += seen[i] != 0;
+      darkThere += seen[i] != 0 && dark[i] != 0;
+    }
+    if (there > 0 && darkThere < kMostSeen * there) return {};
+    const auto cure = cureOf(scene, settings, world, seen);
+    constexpr double kBlack = 1e-3;
+    if (!cure && level > kBlack) return {};
+    if (!cure)
+      return Message{
+          Message::Severity::warning, Place{.file = scene.file}, "the picture is black",
+          "`ray lint` looks for the cause, and `ray explain --pixel X,Y` follows the rays of a pixel"};
+    char share[100];
+    std::snprintf(share, sizeof share,
+                  "%.0f %% of the picture is darker than level 2 of 255, its mean level is %.2g",
+                  100 * all / static_cast<double>(dark.size()), level);
+    return Message{Message::Severity::warning, cure->place, share + cure->why, cure->hint};
+  } catch (const Error&) {  // the time is over, or the changed scene cannot be made
+    return {};
+  }
+}
+
+}  // namespace trace

@@ -1,0 +1,26 @@
+// A picture that is nearly black: whether it is, why, and what makes it light.
+#pragma once
+
+#include <optional>
+
+#include "base/error.h"
+#include "image/film.h"
+#include "render/world/world.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace trace {
+
+/// A picture of few pixels that stands for the whole one: linear light, the mean of what lies in each.
+Picture cellsOf(const Film& film);
+/// The same, traced for the purpose with as few samples as will do.
+Picture tracedCells(const World& world, const Settings& settings);
+
+/// A warning if nearly all of the picture, and of what is seen of objects in it, is darker than 2 levels of
+/// 255, else nothing. A dark background beside something that is lit is none of its business. Its hint works
+/// as it stands: a colour of a light, or a light, that brings the mean level of what is seen to about 90,
+/// found by tracing; or where to look. Nothing if the time of the thread's budget is over.
+std::optional<Message> darkness(const Scene& scene, const Settings& settings, const World& world,
+                                const Picture& cells);
+
+}  // namespace trace

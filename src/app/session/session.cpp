@@ -1,0 +1,244 @@
+#include "app/session/session.h"
+
+#include <chrono>
+#include <ctime>
+#include <fstream>
+
+#include "app/session/auto_exposure.h"
+#include "app/session/render_warnings.h"
+#include "base/budget.h"
+#include "base/file.h"
+#include "base/read_scope.h"
+#include "base/text.h"
+#include "formats/kind_defaults.h"
+#include "image/denoise.h"
+#include "render/integrators/make_integrator.h"
+#include "render/maps/photon_map.h"
+#include "render/picture/passes.h"
+#include "scene/integrators.h"
+#include "scene/quality.h"
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
+namespace trace {
+namespace {
+
+/// Measures a step from its construction to stop().
+class Stopwatch {
+ public:
+  Phase stop(std::string name) const {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_;
+    return {std::move(name), wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC};
+  }
+
+ private:
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+  std::clock_t cpu_ = std::clock();
+};
+
+/// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
+/// in the encoder's buffers.
+std::uint64_t bytesPerPixel(const Settings& settings) {
+  const std::uint64_t splats = hasTrait(settings, Trait::splats) ? SplatPlane::bytesPerPixel() : 0;
+  // Two corners and their keys, as many as a picture with edges has.
+  const std::size_t layers = layersOf(settings).size();
+  const std::uint64_t corners = subdivides(settings) ? 2 * ((layers + 1) * sizeof(Color) + 16) : 0;
+  const std::uint64_t planes = settings.denoise ? denoisingBytesPerPixel() : 0;
+  return Film::bytesPerPixel(layers, settings.denoise) + splats + corners + planes + 2 * sizeof(Color) + 16;
+}
+
+/// The bytes of the photons that stay until the picture is made, if each comes to rest once.
+std::uint64_t photonBytes(const Settings& settings) {
+  const std::int64_t moments = settings.shutter > 0 ? settings.moments : 1;
+  const int passes =
+      std::max(1, static_cast<int>(std::min(settings.photonPasses, samplesOf(settings)) / moments));
+  const std::int64_t photons = hasTrait(settings, Trait::photons) ? std::int64_t{settings.photons} * passes
+                               : findOption("caustics").concerns(settings) ? settings.caustics
+                                                                           : 0;
+  return static_cast<std::uint64_t>(moments * photons) * sizeof(Photon);
+}
+
+/// The geometry is the same in both.
+bool isSameAs(const Scene& a, const Scene& b) {
+  return a.camera == b.camera && a.objects == b.objects && a.lights == b.lights &&
+         a.materials == b.materials && a.background == b.background;
+}
+
+PictureLimits pictureLimits(const Settings& settings) { return {.memory = allowedMemory(settings)}; }
+
+}  // namespace
+
+std::uint64_t machineMemory() {
+#if defined(_SC_PHYS_PAGES)
+  std::uint64_t bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
+                        static_cast<std::uint64_t>(::sysconf(_SC_PAGE_SIZE));
+  std::uint64_t limit = 0;
+  if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit) bytes = std::min(bytes, limit);
+  return bytes;
+#else
+  return std::uint64_t{2} << 30;  // a browser's address space
+#endif
+}
+
+std::uint64_t allowedMemory(const Settings& settings) {
+  return settings.maxMemory > 0 ? static_cast<std::uint64_t>(settings.maxMemory) << 20 : machineMemory() / 2;
+}
+
+void checkMemory(const std::string& what, const Size& size, std::uint64_t bytesPerPixel,
+                 const Settings& settings, std::uint64_t photons) {
+  const std::uint64_t needed =
+      static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height) * bytesPerPixel +
+      photons;
+  const std::uint64_t allowed = allowedMemory(settings);
+  if (needed > allowed)
+    throw Error(Fault::limit,
+                what + (photons > 0 ? " with its photons, of " : " of ") + std::to_string(size.width) +
+                    " x " + std::to_string(size.height) + " pixels needs " + std::to_string(needed >> 20) +
+                    " MiB of memory; allowed are " + std::to_string(allowed >> 20),
+                photons > needed / 2 ? "choose fewer photons or passes of them, or a larger --max-memory"
+                                     : "choose a smaller --width, or a larger --max-memory");
+}
+
+SceneAtMoment readSceneAtItsMoment(const std::string& file, std::string_view bytes,
+                                   std::span<const Choice> choices, Messages& messages) {
+  const auto readAt = [&](Real seconds) {
+    messages = {};
+    SceneTime time(seconds);
+    Scene scene = readScene(file, bytes, messages, time);
+    return SceneAtMoment{std::move(scene), seconds, time.changesScene()};
+  };
+  SceneAtMoment read = readAt(resolve({choices}).time);
+  if (const Real chosen = resolve({read.scene.choices, choices}).time; chosen != read.time)
+    read = readAt(chosen);
+  return read;
+}
+
+void Session::open(const std::string& file, std::span<const Choice> choices, bool strict) {
+  const Stopwatch watch;
+  const Work work("reading the scene");
+  lookAtBudget();  // so that a late one ends with a message before anybody ends it by force
+  if (budgetOfThread.budget) budgetOfThread.budget->letFinish(false);
+  strict_ = strict;
+  messages_ = {};
+  const std::string bytes = readFile(file);
+  SceneAtMoment read = readSceneAtItsMoment(file, bytes, choices, messages_);
+  scene_ = std::move(read.scene);
+  completeBareMesh(scene_);
+  settings_ = settingsFor(scene_, {scene_.choices, choices});
+  readSurroundings(scene_, settings_, pictureLimits(settings_), messages_);
+  sceneAt_ = nullptr;
+  if (read.changesWithTime)
+    sceneAt_ = [file, bytes, rules = ReadScope::current()](Real moment) {
+      const ReadScope scope(rules);
+      Messages known;  // reported for the scene
+      return readScene(file, bytes, known, moment);
+    };
+  fingerprint_ = scene_.inputs.fingerprint();
+  messages_.throwIfFailed(strict_);
+  if (budgetOfThread.budget) budgetOfThread.budget->limitTime(settings_.timeLimit);  // also the file's own
+  phases_ = {watch.stop("read")};
+}
+
+void Session::open(Scene scene, const Settings& settings, SceneAt sceneAt) {
+  strict_ = false;
+  messages_ = {};
+  phases_ = {};
+  scene_ = std::move(scene);
+  sceneAt_ = std::move(sceneAt);
+  settings_ = settings;
+  fingerprint_.clear();
+}
+
+void Session::build(const Session* before) {
+  const Stopwatch watch;
+  const Size picture = size();
+  checkMemory("a picture", picture, bytesPerPixel(settings_), settings_, photonBytes(settings_));
+  readSurroundings(scene_, settings_, pictureLimits(settings_), messages_,
+                   before ? &before->scene_.surroundings : nullptr);
+  if (before) {
+    const Compiled earlier{before->scene_, before->settings_, *before->world_};
+    world_.emplace(compile(scene_, settings_, messages_, &earlier));
+  } else {
+    world_.emplace(compile(scene_, settings_, messages_));
+  }
+  buildMoments();
+  warnOfSettings(scene_, settings_, *world_, messages_);
+  warnOfEmptyMedia(scene_, messages_);
+  warnOfWrongLinks(scene_, messages_);
+  warnOfMissingCaustics(scene_, settings_, *world_, messages_);
+  messages_.throwIfFailed(strict_);
+  measuredExposure_ = settleExposure(*world_, settings_);
+  film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
+  phases_.push_back(watch.stop("build"));
+}
+
+void Session::buildMoments() {
+  moments_.clear();
+  scenes_.clear();
+  worlds_.clear();
+  integrators_.clear();
+  const auto add = [&](const World& world, const Settings& settings) {
+    integrators_.push_back(makeIntegrator(world, settings, job_));
+    moments_.push_back({&world, integrators_.back().get()});
+  };
+  if (settings_.shutter > 0 && !sceneAt_)
+    messages_.warn(Place{.file = scene_.file},
+                   "nothing in the scene changes with time: --shutter blurs nothing",
+                   "docs/animation.md describes animation");
+  if (!(settings_.shutter > 0) || !sceneAt_) return add(*world_, settings_);
+  Work work("building the moments of the shutter", settings_.moments);
+  const Scene* before = &scene_;
+  const World* built = &*world_;
+  bool moves = false;
+  Settings own = settings_;  // each moment has a part of the passes of photons, and sends others
+  own.photonPasses = std::max(1, own.photonPasses / own.moments);
+  for (int moment = 0; moment < settings_.moments; ++moment) {
+    Scene& scene = scenes_.emplace_back(sceneAt_(timeOfMoment(settings_, moment)));
+    moves = moves || !isSameAs(scene, scene_);
+    Messages known;
+    readSurroundings(scene, settings_, pictureLimits(settings_), known, &scene_.surroundings);
+    const Compiled earlier{*before, settings_, *built};
+    worlds_.push_back(compile(scene, settings_, known, &earlier));
+    built = &worlds_.back();
+    before = &scene;
+    own.seed = settings_.seed ^ (moment << 16);
+    add(*built, own);
+    work.reached(moment + 1);
+  }
+  if (!moves)
+    messages_.warn(Place{.file = scene_.file},
+                   "nothing moves while the shutter is open, from " + toText(settings_.time) + " to " +
+                       toText(settings_.time + settings_.shutter) + " seconds: --shutter blurs nothing",
+                   "--time chooses another moment");
+}
+
+RenderResult Session::renderPicture() {
+  const Stopwatch watch;
+  if (budgetOfThread.budget) budgetOfThread.budget->letFinish();
+  RenderResult result = trace::render(moments_, settings_, *film_, job_);
+  phases_.push_back(watch.stop("trace"));
+  return result;
+}
+
+Metadata Session::metadata() const {
+  Metadata words = describe(scene_, settings_);
+  words.emplace_back("Scene", fingerprint_);
+  return words;
+}
+
+std::string Session::save(PictureFiles& files, LastSteps finish) {
+  const Stopwatch watch;
+  std::string written = files.write(*film_, settings_, metadata(), finish);
+  phases_.push_back(watch.stop("write"));
+  return written;
+}
+
+std::string Session::save(const std::string& path) {
+  const BudgetScope unlimited(nullptr);
+  PictureFiles files = filesFor(path);
+  return save(files);
+}
+
+}  // namespace trace

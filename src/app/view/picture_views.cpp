@@ -1,0 +1,150 @@
+#include "app/view/picture_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "app/session/denoising.h"
+#include "image/false_color.h"
+#include "math/vec.h"
+
+namespace trace {
+
+Bytes exposed(const Picture& picture, double stops, Rounding rounding) {
+  if (stops == 0) return toBytes(picture, rounding);
+  Picture bright = picture;
+  const double factor = std::exp2(stops);
+  for (Color& c : bright.pixels) c = c * factor;
+  return toBytes(bright, rounding);
+}
+
+Color falseColour(double value) {
+  static const Color kStops[] = {{0, 0, 0},         {0.1, 0.15, 0.75}, {0, 0.65, 0.35},
+                                 {0.95, 0.85, 0.1}, {0.9, 0.1, 0.1},   {1, 1, 1}};
+  constexpr int kSteps = static_cast<int>(std::size(kStops)) - 1;
+  const double at = (value < 1 ? std::max(value, 0.0) : 1.0) * kSteps;  // NaN counts as 1
+  const int step = std::min(static_cast<int>(at), kSteps - 1);
+  return lerp(at - step, kStops[step], kStops[step + 1]);
+}
+
+namespace {
+
+template <class... Args>
+std::string formatted(const char* format, Args... args) {
+  char text[160];
+  std::snprintf(text, sizeof text, format, args...);
+  return text;
+}
+
+/// Values of which `white` and all above are white.
+Picture heat(Picture values, double white) {
+  for (Color& c : values.pixels) c = heatColor(c.r / white);
+  return values;
+}
+
+PlaneView samplesView(const Film& film) {
+  Picture counts = film.sampleCounts();
+  double least = kInfinity, most = 0;
+  for (const Color& c : counts.pixels) {
+    if (c.r == 0) continue;  // outside the region, or not yet there
+    least = std::min(least, c.r);
+    most = std::max(most, c.r);
+  }
+  if (most == 0) return {std::move(counts), "no pixel has samples yet"};
+  if (least == most)
+    return {heat(std::move(counts), most),
+            formatted("%.0f %s in every pixel", most, most == 1 ? "ray" : "rays")};
+  const std::string legend = formatted("rays a pixel: %.0f to %.0f, which is white; %.4g on the average",
+                                       least, most, film.convergence().samples);
+  return {heat(std::move(counts), most), legend};
+}
+
+PlaneView noiseView(const Film& film) {
+  constexpr double kWhite = 8;  // levels
+  const Convergence so = film.convergence();
+  if (!so.judged)
+    return {Picture(film.width(), film.height()),
+            "noise is not known: it needs two samples a pixel of its own"};
+  return {heat(film.errors(), kWhite / 255),
+          formatted("noise (standard error of the mean): white from %.0f levels on; %.3g on the average",
+                    kWhite, 255 * so.error)};
+}
+
+PlaneView changeView(const Film& film, const Picture& shown) {
+  constexpr double kWhite = 16;  // levels
+  Picture by = change(film.picture(), shown);
+  if (!film.keepsHalves()) return {std::move(by), "nothing was changed: denoise is off"};
+  const double mean = meanChange(by);
+  for (Color& c : by.pixels) c = Color(std::max({std::abs(c.r), std::abs(c.g), std::abs(c.b)}));
+  return {heat(std::move(by), kWhite / 255),
+          formatted("what denoise changed: white from %.0f levels on; %.3g on the average", kWhite, mean)};
+}
+
+}  // namespace
+
+PlaneView planeView(FilmPlane plane, const Film& film, const Picture& shown) {
+  switch (plane) {
+    case FilmPlane::samples: return samplesView(film);
+    case FilmPlane::noise: return noiseView(film);
+    case FilmPlane::change: return changeView(film, shown);
+    case FilmPlane::picture: break;
+  }
+  return {shown, ""};
+}
+
+std::string convergenceText(const Convergence& convergence) {
+  std::string text =
+      formatted("%.4g %s a pixel", convergence.samples, convergence.samples == 1 ? "sample" : "samples");
+  if (convergence.judged) text += formatted(", noise %.3g levels", 255 * convergence.error);
+  return text;
+}
+
+std::string pixelText(const Color& linear, const Color& toned, Rounding rounding) {
+  char text[120];
+  std::snprintf(text, sizeof text, "%.4g  %.4g  %.4g   (%d %d %d)", linear.r, linear.g, linear.b,
+                toLevel(toned.r, rounding), toLevel(toned.g, rounding), toLevel(toned.b, rounding));
+  return text;
+}
+
+Bytes fewerPixels(const Bytes& picture, int most) {
+  const auto blocks = [&](int side) { return (side + most - 1) / most; };  // pixels in one
+  const int wide = blocks(picture.width), high = blocks(picture.height);
+  Bytes result;
+  result.width = (picture.width + wide - 1) / wide;
+  result.height = (picture.height + high - 1) / high;
+  for (int y = 0; y < result.height; ++y)
+    for (int x = 0; x < result.width; ++x)
+      for (int channel = 0; channel < 3; ++channel) {
+        int sum = 0, count = 0;
+        for (int j = y * high; j < std::min((y + 1) * high, picture.height); ++j)
+          for (int i = x * wide; i < std::min((x + 1) * wide, picture.width); ++i, ++count)
+            sum += picture.rgb[3 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(picture.width) +
+                                    static_cast<std::size_t>(i)) +
+                               static_cast<std::size_t>(channel)];
+        result.rgb.push_back(static_cast<std::uint8_t>((sum + count / 2) / count));
+      }
+  return result;
+}
+
+Picture clamped(Picture levels) {
+  for (Color& c : levels.pixels) c = clamp01(c);
+  return levels;
+}
+
+Picture differences(const Picture& a, const Picture& b, double magnify) {
+  Picture picture(a.width, a.height);
+  const auto apart = [&](double x, double y) { return x == y ? 0 : std::abs(x - y) * magnify; };
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    const Color &p = a.pixels[i], &q = b.pixels[i];
+    picture.pixels[i] = {apart(p.r, q.r), apart(p.g, q.g), apart(p.b, q.b)};
+  }
+  return picture;
+}
+
+Picture falseColours(const Picture& a, const Picture& b, double magnify) {
+  Picture picture = differences(a, b, magnify);
+  for (Color& c : picture.pixels) c = falseColour(maxComponent(c));
+  return picture;
+}
+
+}  // namespace trace

@@ -1,0 +1,303 @@
+#include "app/view/ray_drawing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "app/explain/ray_segments.h"
+#include "app/view/room.h"
+#include "app/view/scene_model.h"
+#include "render/picture/passes.h"
+#include "render/picture/render.h"
+#include "scene/integrators.h"
+
+namespace trace {
+namespace {
+
+constexpr double kPanelWidth = 640, kEdge = 16, kLine = 18;
+constexpr Color kInk{0.15, 0.15, 0.15};
+
+/// A view of the scene: its frame on the drawing, and the way from space to it.
+class Panel {
+ public:
+  Panel(const CameraFrame& camera, const Point2& at, double width, double height)
+      : camera_(camera), at_(at), width_(width), height_(height), eye_(camera.eye) {
+    // p = eye + s (look + a right + b up): (s a, s b, s) = inverse of the axes' matrix.
+    Affine axes;
+    for (int i = 0; i < 3; ++i) axes.row[i] = {camera.right[i], camera.up[i], camera.look[i]};
+    toPlane_ = inverse(axes);
+  }
+
+  DrawnFrame frame() const { return {at_, width_, height_}; }
+
+  /// Nothing of a segment outside the view is drawn.
+  void line(Drawing& drawing, Vec3 from, Vec3 to, const Color& color, double width, bool dashed) const {
+    if (!camera_.plain) return bent(drawing, from, to, color, width, dashed);
+    Vec3 a = linear(toPlane_, from - eye_), b = linear(toPlane_, to - eye_);
+    const Real near = 1e-6 * std::max(std::abs(a.z), std::abs(b.z));  // just before the eye
+    if (!isFinite(a) || !isFinite(b) || (a.z <= near && b.z <= near)) return;
+    if (a.z < near) a = a + (b - a) * ((near - a.z) / (b.z - a.z));
+    if (b.z < near) b = b + (a - b) * ((near - b.z) / (a.z - b.z));
+    Point2 p = place(a), q = place(b);
+    if (clip(p, q)) drawing.things.push_back(DrawnLine{p, q, color, width, dashed});
+  }
+
+  void disk(Drawing& drawing, const Vec3& point, double radius, const Color& color) const {
+    const auto seen = isFinite(point) ? camera_.placeOf(point) : std::nullopt;
+    if (!seen || !std::isfinite(seen->x) || !std::isfinite(seen->y)) return;
+    const Point2 at = place(*seen);
+    if (at.x > at_.x && at.x < at_.x + width_ && at.y > at_.y && at.y < at_.y + height_)
+      drawing.things.push_back(DrawnDisk{at, radius, color});
+  }
+
+ private:
+  /// In a projection that bends lines, or from two eyes: piece by piece.
+  void bent(Drawing& drawing, const Vec3& from, const Vec3& to, const Color& color, double width,
+            bool dashed) const {
+    constexpr int kPieces = 48;
+    std::optional<Point2> last;
+    for (int i = 0; i <= kPieces; ++i) {
+      const Vec3 at = from + (to - from) * (static_cast<Real>(i) / kPieces);
+      const auto seen = isFinite(at) ? camera_.placeOf(at) : std::nullopt;
+      const bool finite = seen && std::isfinite(seen->x) && std::isfinite(seen->y);
+      const std::optional<Point2> here = finite ? std::optional(place(*seen)) : std::nullopt;
+      // A panorama's line may leave at one side and come back at the other.
+      if (last && here && std::abs(here->x - last->x) < width_ / 2) {
+        Point2 p = *last, q = *here;
+        if (clip(p, q)) drawing.things.push_back(DrawnLine{p, q, color, width, dashed});
+      }
+      last = here;
+    }
+  }
+
+  Point2 place(const Vec2& p) const { return {at_.x + width_ * p.x, at_.y + height_ * (1 - p.y)}; }
+  Point2 place(const Vec3& p) const {
+    return {at_.x + width_ * (p.x / p.z + 0.5), at_.y + height_ * (0.5 - p.y / p.z)};
+  }
+
+  /// To a little more than the frame (Liang and Barsky 1984); false if nothing is left.
+  bool clip(Point2& p, Point2& q) const {
+    constexpr double kBeyond = 8;
+    const double dx = q.x - p.x, dy = q.y - p.y;
+    double first = 0, last = 1;
+    const auto within = [&](double d, double room) {  // room: what t d may be at most
+      if (d == 0) return room >= 0;
+      if (d > 0)
+        last = std::min(last, room / d);
+      else
+        first = std::max(first, room / d);
+      return first <= last;
+    };
+    if (!within(dx, at_.x + width_ + kBeyond - p.x) || !within(-dx, p.x - at_.x + kBeyond) ||
+        !within(dy, at_.y + height_ + kBeyond - p.y) || !within(-dy, p.y - at_.y + kBeyond))
+      return false;
+    const Point2 start = p;
+    p = {start.x + dx * first, start.y + dy * first};
+    q = {start.x + dx * last, start.y + dy * last};
+    return true;
+  }
+
+  CameraFrame camera_;
+  Point2 at_;
+  double width_, height_;
+  Vec3 eye_;
+  Affine toPlane_;
+};
+
+/// The view of the world's camera, paler; white where nothing is.
+DrawnPicture faint(const World& world, Settings settings, const Point2& at, double width, double height) {
+  settings.width = static_cast<int>(width);
+  settings.height = static_cast<int>(height);
+  settings.region = {};
+  settings.spp = 1;
+  settings.subdivide = 0;
+  settings.denoise = false;
+  settings.timeLimit = 0;
+  settings.depth = std::min(settings.depth, 2);
+  settings.passes = {};
+  Film film = makeFilm(settings, settings.width, settings.height);
+  Job job;
+  render(world, settings, film, job);
+  Picture picture = film.picture();
+  Statistics uncounted;
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      Color& c = picture.at(x, y);
+      const Ray ray = world.camera().ray({(x + 0.5) / picture.width, 1 - (y + 0.5) / picture.height});
+      c = world.closest(ray, Faces::both, uncounted) ? lerp(0.6, clamp01(c), Color(1)) : Color(1);
+    }
+  return {at, std::move(picture)};
+}
+
+/// Shades surfaces by how much they face the eye, without the light of the scene: of rooms with few samples
+/// by `path` there would be nothing but noise. Walls that hide the place `inside` are left out.
+DrawnPicture sketch(const World& world, const std::vector<std::uint32_t>& walls, const Vec3& inside,
+                    const Point2& at, double width, double height) {
+  Picture picture(static_cast<int>(width), static_cast<int>(height));
+  picture.pixels.assign(picture.pixels.size(), Color(1));
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const Ray ray = world.camera().ray({(x + 0.5) / picture.width, 1 - (y + 0.5) / picture.height});
+      const auto found = closestShown(world, ray, walls, inside);
+      if (!found) continue;
+      const Real facing = std::abs(dot(world.surface(ray, *found).normal, ray.direction));
+      picture.at(x, y) = Color(0.6 + 0.4 * facing / length(ray.direction));
+    }
+  return {at, std::move(picture)};
+}
+
+/// Where most of the rays are: a few that get far, such as to the end of a wide floor, do not make the others
+/// small. Along these axes.
+Box3 boxOf(const std::vector<RaySegment>& segments, const std::array<Vec3, 3>& axes) {
+  constexpr std::size_t kMany = 20;
+  std::array<std::vector<Real>, 3> along;
+  const auto note = [&](const Vec3& p) {
+    if (!isFinite(p)) return;
+    for (std::size_t i = 0; i < 3; ++i) along[i].push_back(dot(p, axes[i]));
+  };
+  for (const RaySegment& segment : segments) {
+    note(segment.from);
+    if (!segment.leaves || along[0].size() < 2) note(segment.to);  // the first is that of the camera
+  }
+  Vec3 low, high;
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::vector<Real>& all = along[i];
+    if (all.empty()) return {};
+    const auto few = all.size() < kMany ? std::ptrdiff_t{0} : std::ssize(all) / 20;
+    const Real eye = all.front(), first = all[std::min<std::size_t>(1, all.size() - 1)];
+    std::sort(all.begin(), all.end());
+    low[static_cast<int>(i)] = std::min({all[static_cast<std::size_t>(few)], eye, first});
+    high[static_cast<int>(i)] = std::max({all[all.size() - 1 - static_cast<std::size_t>(few)], eye, first});
+  }
+  return {low, high};
+}
+
+/// From the camera's right, far away, so that nothing is foreshortened; the camera looks to the right there,
+/// and what is up for the scene's camera is up.
+Camera sideCamera(const CameraFrame& front, const Vec3& updir, const std::vector<RaySegment>& segments,
+                  double aspect) {
+  const Vec3 right = normalize(front.right), ahead = normalize(cross(updir, right)), up = cross(right, ahead);
+  const Box3 box = boxOf(segments, {ahead, up, right});
+  const Vec3 center = box.center(), size = box.size();
+  const Real half = std::max({size.y / 2, size.x / 2 / aspect, 1e-3 * size.z}) * 1.1;
+  const Real distance = 30 * half + size.z;
+  Camera camera;
+  camera.position = ahead * center.x + up * center.y + right * (center.z + distance);
+  camera.viewdir = -right;
+  camera.updir = up;
+  camera.fov = 2 * std::atan(half / distance) * 180 / kPi;
+  camera.aspectratio = aspect;
+  return camera;
+}
+
+class RayDrawing {
+ public:
+  RayDrawing(const RayTree& tree) : tree_(tree), segments_(raySegments(tree)) {}
+
+  const std::vector<RaySegment>& segments() const { return segments_; }
+
+  /// Shadow rays below, so that they hide no others; thicker, the more a ray counts.
+  void rays(Drawing& drawing, const Panel& panel) const {
+    const double whole = maxComponent(tree_.nodes[0].weight);
+    for (const bool shadows : {true, false})
+      for (const RaySegment& segment : segments_) {
+        const RayNode& node = at(segment);
+        if ((node.kind == RayKind::shadow) != shadows) continue;
+        const double share = whole > 0 ? std::clamp(maxComponent(node.weight) / whole, 0.0, 1.0) : 0;
+        const double width = shadows ? 1 : 1 + 2 * std::sqrt(share);
+        panel.line(drawing, segment.from, segment.to, look(segment.looks).color, width, segment.leaves);
+      }
+    const Real normalLength = 0.04 * size();
+    for (const RaySegment& segment : segments_)
+      if (const auto& hit = at(segment).hit) {
+        const Vec3& p = hit->surface.point;
+        panel.line(drawing, p, p + hit->surface.shading * normalLength, kInk, 1, false);
+        panel.disk(drawing, p, 2.5, look(segment.looks).color);
+      } else if (segment.looks == RayLooks::shadowLit && !segment.leaves) {
+        panel.disk(drawing, segment.to, 4, look(segment.looks).color);
+      }
+    panel.disk(drawing, tree_.nodes[0].ray.origin, 4, kInk);
+  }
+
+ private:
+  const RayNode& at(const RaySegment& segment) const {
+    return tree_.nodes[static_cast<std::size_t>(segment.node)];
+  }
+  Real size() const { return length(boxOf(segments_, {Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}).size()); }
+
+  const RayTree& tree_;
+  std::vector<RaySegment> segments_;
+};
+
+}  // namespace
+
+Drawing drawRays(const Scene& scene, const Settings& settings, const World& world, const RayTree& tree) {
+  const RayDrawing rays(tree);
+  const double aspect =
+      length(world.camera().right) / length(world.camera().up) * eyesAcross(settings.stereo);
+  const double height = std::clamp(std::round(kPanelWidth / aspect), 100.0, 4 * kPanelWidth);
+  const double top = kEdge + 2 * kLine, right = 2 * kEdge + kPanelWidth;
+  Drawing drawing;
+  drawing.width = static_cast<int>(2 * kPanelWidth + 3 * kEdge);
+  const std::size_t legendRows = (kRayLooks.size() + 4) / 3;
+  drawing.height = static_cast<int>(top + height + 2 * kEdge + static_cast<double>(legendRows) * kLine);
+  const DrawnFrame whole{{0, 0}, static_cast<double>(drawing.width), static_cast<double>(drawing.height)};
+
+  Scene sideScene = scene;
+  sideScene.camera = sideCamera(world.camera(), scene.camera.updir, rays.segments(), kPanelWidth / height);
+  Settings sideSettings = settings;
+  sideSettings.cameraAxes = CameraAxes::orthonormal;
+  const Settings defaults;
+  sideSettings.projection = defaults.projection;
+  sideSettings.shiftX = sideSettings.shiftY = 0;
+  sideSettings.distortion = 0;
+  sideSettings.stereo = Stereo::off;
+  sideSettings.aperture = 0;
+  Messages ignored;  // said before, of the same scene
+  const Compiled here{scene, settings, world};
+  const World sideWorld = compile(sideScene, sideSettings, ignored, &here);
+
+  using Walls = std::vector<std::uint32_t>;
+  const Vec3& eye = scene.camera.position;
+  const auto panel = [&](const World& w, const Settings& s, const Walls& walls, double x,
+                         const std::string& title) {
+    // One sample of all lights has no noise.
+    const bool lit = hasTrait(s, Trait::asksAllLights) && walls.empty();
+    drawing.things.push_back(DrawnWords{{x, top - kLine}, title, kInk});
+    const Point2 corner{x, top};
+    const Panel view(w.camera(), corner, kPanelWidth, height);
+    drawing.things.push_back(view.frame());
+    drawing.things.push_back(lit ? faint(w, s, corner, kPanelWidth, height)
+                                 : sketch(w, walls, eye, corner, kPanelWidth, height));
+    rays.rays(drawing, view);
+    drawing.things.push_back(whole);
+  };
+  drawing.things.push_back(DrawnWords{{kEdge, kEdge / 2},
+                                      "pixel " + std::to_string(tree.x) + "," + std::to_string(tree.y) +
+                                          ", sample " + std::to_string(tree.sample) + ": " +
+                                          std::to_string(tree.nodes.size()) +
+                                          (tree.nodes.size() == 1 ? " ray" : " rays"),
+                                      kInk});
+  panel(world, settings, {}, kEdge, "from the camera");
+  panel(sideWorld, sideSettings, wallsAround(world, eye, frameOf(scene)), right,
+        "from the side: the camera looks to the right");
+
+  // The legend, in three columns.
+  double x = kEdge, y = top + height + kEdge;
+  const auto entry = [&](const std::string& words, const Color& color, bool dashed) {
+    drawing.things.push_back(DrawnLine{{x, y + kLine / 2}, {x + 36, y + kLine / 2}, color, 3, dashed});
+    drawing.things.push_back(DrawnWords{{x + 46, y}, words, kInk});
+    x += (2 * kPanelWidth + kEdge) / 3;
+    if (x > 2 * kPanelWidth) {
+      x = kEdge;
+      y += kLine;
+    }
+  };
+  for (const RayLook& row : kRayLooks) entry(std::string(row.help), row.color, false);
+  entry("dashed: leaves the scene", kInk, true);
+  entry("short: the surface's normal", kInk, false);
+  return drawing;
+}
+
+}  // namespace trace

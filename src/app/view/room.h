@@ -1,0 +1,29 @@
+// The walls around a camera that stands in a closed room: an interactive view from outside leaves out those
+// of its sides that would hide what is inside.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "math/box.h"
+#include "render/world/world.h"
+
+namespace trace {
+
+/// Objects that lie outermost around `inside`, ascending: those first met by rays that come in from all
+/// directions from beyond the frame. None where fewer than three quarters of the rays hit anything, which is
+/// no room.
+std::vector<std::uint32_t> wallsAround(const World& world, const Vec3& inside, const Box3& frame);
+
+/// Does a plane through `point` with that normal part the eye from the inside of the room? Then a wall there
+/// is not shown.
+inline bool parts(const Vec3& normal, const Vec3& point, const Vec3& eye, const Vec3& inside) {
+  return dot(normal, eye - point) * dot(normal, inside - point) < 0;
+}
+
+/// The nearest thing on the ray that is shown.
+std::optional<Found> closestShown(const World& world, const Ray& ray, const std::vector<std::uint32_t>& walls,
+                                  const Vec3& inside);
+
+}  // namespace trace

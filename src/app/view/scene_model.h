@@ -1,0 +1,74 @@
+// A scene as triangles, for the interactive view.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "app/session/background_task.h"
+#include "base/error.h"
+#include "geometry/mesh/tessellate.h"
+#include "math/box.h"
+#include "render/world/world.h"
+#include "scene/scene.h"
+
+namespace trace {
+
+/// A part of an object that has one material.
+struct ScenePart {
+  std::uint32_t object = 0;          ///< index into Scene::objects
+  Color color;                       ///< what it looks like in white light
+  Real opacity = 1;                  ///< less of what transmits light
+  std::size_t first = 0, count = 0;  ///< first and count of SceneModel::corners
+  std::array<Vec3, 8> box;  ///< box of the object's own bounds, in the world: bits of the index are x, y, z
+};
+
+struct SceneModel {
+  /// Coordinates in float are (world - origin) / scale.
+  Vec3 origin;
+  Real scale = 1;
+  /// Position and normal, six floats for each corner of a triangle.
+  std::vector<float> corners;
+  std::vector<ScenePart> parts;
+  std::vector<Message> warnings;  ///< warnings of shapes that are drawn coarser than others, or not at all
+
+  std::array<float, 3> local(const Vec3& world) const {
+    const Vec3 p = (world - origin) / scale;
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  }
+};
+
+/// Around the objects that have an end and the camera, except for those so far out that the others would be a
+/// dot beside them. Empty if there are none.
+Box3 frameOf(const Scene& scene);
+
+/// Makes models of a scene that is edited, and keeps the triangles of shapes that stay as they are.
+class SceneModeler {
+ public:
+  /// Models all objects. It leaves out those whose transform cannot be undone, as a render does, and those
+  /// that frameOf() leaves out. Infinite objects are cut off some way around the others and the camera.
+  /// `cancelled`, if any, is asked after every object; then the rest is left out.
+  SceneModel model(const Scene& scene, const Cancelled& cancelled = {});
+
+ private:
+  using Corners = std::shared_ptr<const std::vector<SurfaceCorner>>;
+  struct Made {
+    Shape shape;
+    Corners corners;
+    int divisions;  ///< that the surface was followed in
+  };
+
+  Made made(const Shape& shape, const Box3& within, std::vector<Made>& kept) const;
+
+  std::vector<Made> made_;  // the shapes of the last model, each once
+};
+
+/// The target of the camera: a box around most of the points in the middle of its picture, those well outside
+/// the frame left out. Empty if it sees nothing.
+Box3 seenBy(const World& world, const Box3& frame);
+
+/// Whether a modeler would make the same model.
+bool sameModel(const Scene& a, const Scene& b);
+
+}  // namespace trace

@@ -1,0 +1,350 @@
+#include "formats/ray/language/language.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "base/nesting.h"
+#include "base/text.h"
+#include "formats/ray/language/evaluation.h"
+#include "formats/ray/read/objects.h"
+#include "formats/ray/read/placement.h"
+#include "formats/ray/read/texture.h"
+#include "math/noise.h"
+
+namespace trace::rayfile {
+namespace {
+
+/// Copies the tree, with what statements, names and calls make in their place.
+class Expander : Evaluator {
+ public:
+  Expander(Syntax& syntax, SceneTime& time, InputFiles& inputs) : Evaluator(syntax, time, inputs) {
+    for (const std::string_view word : textureKinds()) textureWords_.insert(word);
+  }
+
+  void expand() {
+    const auto scope = std::make_shared<Scope>();
+    result_.reserve(syntax_.nodes().size());
+    const std::size_t root = open(0);
+    declare(0, *scope);
+    items(0, scope, false);
+    close(root);
+    syntax_.replace(std::move(result_));
+    syntax_.setFrames(std::move(frames_));
+  }
+
+ private:
+  // --- writing ---
+
+  std::size_t open(std::uint32_t from) { return open(node(from), from); }
+  std::size_t open(const Node& made, std::uint32_t from) {
+    if ((made.kind == Kind::tuple || made.kind == Kind::block) && ++depth_ > kMostNesting)
+      fail(from, "expected at most " + std::to_string(kMostNesting) + " levels of brackets, found more",
+           calls_ > 0 ? "a recursion needs a condition that ends it" : "");
+    return push(made);
+  }
+  void close(std::size_t index) {
+    result_[index].end = static_cast<std::uint32_t>(result_.size());
+    depth_ -= result_[index].kind == Kind::tuple || result_[index].kind == Kind::block;
+  }
+  std::size_t push(Node made) {
+    if (result_.size() >= kMostMadeNodes) tooMany();
+    made.end = static_cast<std::uint32_t>(result_.size() + 1);
+    result_.push_back(made);
+    return result_.size() - 1;
+  }
+  /// A node of that kind whose place is that of another.
+  Node likeness(std::uint32_t of, Kind kind) const {
+    Node made = node(of);
+    made.kind = kind;
+    made.quoted = made.follows = false;
+    made.number = 0;
+    return made;
+  }
+  /// Names the loop or call of which most was made.
+  [[noreturn]] void tooMany() const {
+    std::map<std::uint32_t, std::pair<std::size_t, std::string>> made;
+    for (const Syntax::Frame& frame : frames_) {
+      auto& entry = made[frame.offset];
+      ++entry.first;
+      entry.second = frame.what;
+    }
+    const auto most = std::max_element(made.begin(), made.end(), [](const auto& a, const auto& b) {
+      return a.second.first < b.second.first;
+    });
+    Place place{syntax_.file(), 0, 0, {}};
+    std::string hint;
+    if (most != made.end()) {
+      place = syntax_.place(most->first);
+      hint = "this was done " + std::to_string(most->second.first) + " times, the last one with " +
+             most->second.second;
+    }
+    throw Error(
+        Fault::limit, place,
+        "expected a scene of at most " + std::to_string(kMostMadeNodes) + " numbers and words, found more",
+        hint);
+  }
+
+  // --- statements ---
+
+  /// The items of a block or tuple, with what statements make of them in their place.
+  void items(std::uint32_t parent, const Scoped& scope, bool isList) {
+    for (std::uint32_t child = parent + 1; child < after(parent);)
+      child = item(child, after(parent), scope, isList);
+  }
+  void items(std::uint32_t first, std::uint32_t root, const Scoped& scope) {
+    for (std::uint32_t child = first; child < after(root);) child = item(child, after(root), scope, false);
+  }
+  /// Returns the item after it.
+  std::uint32_t item(std::uint32_t child, std::uint32_t end, const Scoped& scope, bool isList) {
+    step(child);
+    const std::uint32_t next = after(child);
+    switch (kind(child)) {
+      case Kind::let:
+      case Kind::define: return next;
+      case Kind::include: {
+        if (const auto root = roots_.find(child); root != roots_.end())
+          items(withoutHead(root->second), root->second, scope);
+        return next;
+      }
+      case Kind::loop: loop(child, scope, isList); return next;
+      case Kind::branch: branch(child, scope, isList); return next;
+      case Kind::call: {
+        const Found found = findCalled(wordAt(child + 1), scope);
+        if (!found.binding) break;
+        const bool overridden = next < end && node(next).follows && kind(child + 2) == Kind::tuple;
+        made(child, found, scope, overridden ? next : 0);
+        return overridden ? after(next) : next;
+      }
+      case Kind::word: {
+        const Found found = find(wordAt(child), scope);
+        if (!found.binding || !isDefinition(*found.binding)) break;
+        definition(*found.binding, found.scope, child, {}, scope, 0);
+        return next;
+      }
+      default: break;
+    }
+    copy(child, scope);
+    return next;
+  }
+  /// An included file may have the first words of a scene.
+  std::uint32_t withoutHead(std::uint32_t root) const {
+    const std::uint32_t first = root + 1;
+    if (first >= after(root) || (wordAt(first) != kCourses && wordAt(first) != kKind)) return first;
+    if ((wordAt(first) == kKind) != degrees_)
+      fail(first,
+           "expected a file of the kind " + std::string(degrees_ ? kKind : kCourses) + ", found " +
+               std::string(wordAt(first)),
+           "angles in the two are of different units; a file without such a first line goes with both");
+    const std::uint32_t second = after(first);
+    return second < after(root) && kind(second) == Kind::number ? after(second) : second;
+  }
+  void loop(std::uint32_t statement, const Scoped& scope, bool isList) {
+    const std::uint32_t name = statement + 1, source = name + 1, body = after(source);
+    checkName(name, Named::value);
+    const Value all = eval(source, scope);
+    if (!all.list()) fail(source, "expected a range such as 0..9 or a list, found " + shown(all));
+    const std::uint64_t seed = seedAt(statement, *scope);
+    for (std::size_t i = 0; i < all.list()->size(); ++i) {
+      const Value& value = (*all.list())[i];
+      const auto round = std::make_shared<Scope>(Scope{scope, mixBits(seed ^ i), body});
+      round->bindings.push_back({at(name).text(), statement, value});
+      const FrameScope frame(*this, statement, std::string(at(name).text()) + " = " + shown(value));
+      block(body, round, isList);
+    }
+  }
+  void branch(std::uint32_t statement, const Scoped& scope, bool isList) {
+    const std::uint32_t condition = statement + 1, then = after(condition);
+    if (Value truth = grouped(condition, scope); isTrue(truth, condition))
+      block(then, inside(then, scope), isList);
+    else if (const std::uint32_t other = after(then); other < after(statement)) {
+      if (kind(other) == Kind::branch)
+        branch(other, scope, isList);
+      else
+        block(other, inside(other, scope), isList);
+    }
+  }
+  /// The items of the block of a loop or condition, in a group of their own where they set a material.
+  void block(std::uint32_t body, const std::shared_ptr<Scope>& scope, bool isList) {
+    declare(body, *scope);
+    bool sets = false;
+    for (std::uint32_t child = body + 1; child < after(body) && !isList; child = after(child))
+      sets |= kind(child) == Kind::entry && wordAt(child + 1) == Material::kKeyword;
+    const std::size_t group = sets ? open(body) : 0;
+    items(body, scope, isList);
+    if (sets) close(group);
+  }
+
+  // --- calls ---
+
+  /// The nodes that a call of a name makes. `block` overrides what it is made of; 0 for none.
+  void made(std::uint32_t call, const Found& found, const Scoped& scope, std::uint32_t block) {
+    const Binding& binding = *found.binding;
+    const std::uint32_t brackets = call + 2;
+    const bool isBlock = kind(brackets) == Kind::block;
+    if (isBlock) block = brackets;
+    if (isDefinition(binding))
+      return definition(binding, found.scope, call,
+                        isBlock ? std::vector<std::uint32_t>{} : children(brackets), scope, block);
+    const Value value = isBlock ? valueOf(found, call) : called(call, found, scope);
+    if (!block) return emit(value, call);
+    if (!value.tree()) fail(call, "expected objects before { }, found " + shown(value));
+    const std::size_t group = open(likeness(block, Kind::block), block);
+    overriding(block, scope);
+    emit(value, call);
+    close(group);
+  }
+  /// The materials that a block behind a call sets.
+  void overriding(std::uint32_t block, const Scoped& scope) {
+    for (std::uint32_t child = block + 1; child < after(block); child = after(child)) {
+      if (kind(child) != Kind::entry || wordAt(child + 1) != Material::kKeyword)
+        fail(child, "expected material = ..., found " + describe(at(child)),
+             "a block after a name gives the material of its objects");
+      copy(child, scope);
+    }
+  }
+  void definition(const Binding& binding, const Scoped& home, std::uint32_t call,
+                  const std::vector<std::uint32_t>& arguments, const Scoped& scope, std::uint32_t block) {
+    const std::uint32_t parameters = binding.node + 2, body = after(parameters);
+    const std::shared_ptr<Scope> own = bound(call, binding.name, parameters, arguments, scope, home, body);
+    const FrameScope frame(*this, call, callText(binding.name, *own));
+    const std::size_t group = open(likeness(call, Kind::block), call);
+    if (block) overriding(block, scope);
+    declare(body, *own);
+    items(body, own, false);
+    close(group);
+  }
+
+  // --- copying ---
+
+  void copy(std::uint32_t index, const Scoped& scope) {
+    step(index);
+    switch (kind(index)) {
+      case Kind::number: push(node(index)); return;
+      case Kind::word: return word(index, scope);
+      case Kind::expression: return emit(eval(index, scope), index);
+      case Kind::tuple:
+        if (isGrouping(index)) return emit(eval(index + 1, scope), index);
+        return inBrackets(index, scope);
+      case Kind::block: return inBrackets(index, scope);
+      case Kind::entry: {
+        const std::size_t entry = open(index);
+        push(node(index + 1));
+        copy(index + 2, scope);
+        return close(entry);
+      }
+      case Kind::call: return call(index, scope);
+      default: fail(index, "expected a value, found " + describe(at(index)));
+    }
+  }
+  void inBrackets(std::uint32_t index, const Scoped& scope) {
+    const bool isList = kind(index) == Kind::tuple;
+    const std::size_t brackets = open(index);
+    if (isList) {
+      items(index, scope, true);
+    } else {
+      const std::shared_ptr<Scope> own = inside(index, scope);
+      declare(index, *own);
+      items(index, own, false);
+    }
+    close(brackets);
+  }
+  void word(std::uint32_t index, const Scoped& scope) {
+    const std::string_view text = wordAt(index);
+    if (const Found found = find(text, scope); found.binding) {
+      if (isDefinition(*found.binding)) return definition(*found.binding, found.scope, index, {}, scope, 0);
+      return emit(valueOf(found, index), index);
+    }
+    if (const std::optional<double> number = constant(text)) return emit(*number, index);
+    refuseDash(index, scope);
+    push(node(index));
+  }
+  void call(std::uint32_t index, const Scoped& scope) {
+    const std::string_view name = wordAt(index + 1);
+    const bool hasBlock = kind(index + 2) == Kind::block;
+    const bool isTexture = hasBlock && textureWords_.contains(name);
+    if (const Found found = findCalled(name, scope); found.binding && !isTexture)
+      return made(index, found, scope, 0);
+    if (!hasBlock && isFunction(name)) return emit(eval(index, scope), index);
+    if (hasBlock && name == "group") return copy(index + 2, scope);
+    const std::size_t call = open(index);
+    push(node(index + 1));
+    if (hasBlock || !isTransform(at(index)))
+      copy(index + 2, scope);
+    else
+      transform(index + 2, scope);
+    close(call);
+  }
+  /// The brackets of a transform: a point or an axis among the numbers stands for its three.
+  void transform(std::uint32_t tuple, const Scoped& scope) {
+    const bool isMatrix = wordAt(tuple - 1) == "transform";
+    const std::size_t brackets = open(tuple);
+    for (std::uint32_t child = tuple + 1; child < after(tuple);) {
+      if (isMatrix || !isComputed(child, scope)) {
+        child = item(child, after(tuple), scope, true);
+        continue;
+      }
+      const Value value = kind(child) == Kind::tuple ? grouped(child, scope) : eval(child, scope);
+      if (const List* list = value.list())
+        for (const Value& number : *list) emit(number, child);
+      else
+        emit(value, child);
+      child = after(child);
+    }
+    close(brackets);
+  }
+  /// Is it an expression, rather than an object?
+  bool isComputed(std::uint32_t index, const Scoped& scope) const {
+    if (kind(index) == Kind::tuple || kind(index) == Kind::expression) return true;
+    const bool isCall = kind(index) == Kind::call && kind(index + 2) == Kind::tuple;
+    const std::string_view name = wordAt(isCall ? index + 1 : index);
+    const Found found = isCall ? findCalled(name, scope) : find(name, scope);
+    return found.binding ? !isDefinition(*found.binding) : isCall && isFunction(name);
+  }
+  /// A value in the place of the node `use`.
+  void emit(const Value& value, std::uint32_t use) {
+    step(use);
+    if (const double* number = value.number()) {
+      Node made = likeness(use, Kind::number);
+      made.number = *number;
+      push(made);
+    } else if (const Tree* tree = value.tree()) {
+      const std::uint32_t at = tree->node;
+      const std::string_view name = kind(at) == Kind::call ? wordAt(at + 1) : std::string_view();
+      const bool unwraps = (name == Material::kKeyword || name == "group") && kind(at + 2) == Kind::block;
+      const Nested nested(calls_);
+      if (calls_ > kMostCalls) tooDeep(use);
+      copy(unwraps ? at + 2 : at, tree->scope);
+    } else if (const List* list = value.list()) {
+      const std::size_t tuple = open(likeness(use, Kind::tuple), use);
+      for (const Value& element : *list) emit(element, use);
+      close(tuple);
+    } else {
+      Node made = likeness(use, Kind::word);
+      made.number = syntax_.spell(value.text() ? *value.text() : *value.truth() ? "true" : "false");
+      push(made);
+    }
+  }
+
+  std::set<std::string_view> textureWords_;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+void expand(Syntax& syntax, SceneTime& time, InputFiles& inputs) {
+  if (syntax.usesLanguage()) Expander(syntax, time, inputs).expand();
+}
+
+std::vector<FunctionHelp> functionsOfLanguage() {
+  std::vector<FunctionHelp> rows;
+  for (const Function& function : functions())
+    rows.push_back({function.name, function.parameters, function.help});
+  return rows;
+}
+
+}  // namespace trace::rayfile

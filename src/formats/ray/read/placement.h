@@ -1,0 +1,25 @@
+// The transforms of .ray files around their objects: translate( ), rotate( ), scale( ) and transform( ).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "formats/ray/syntax/findings.h"
+#include "formats/ray/syntax/syntax.h"
+#include "math/transform.h"
+
+namespace trace::rayfile {
+
+bool isTransform(const Item& item);
+void addTransformWords(std::vector<std::string_view>& words);
+
+/// Multiplies the transform of the node to `worldFromObject`. Returns what it transforms; nothing, after a
+/// report, if the node is not of its form. Precondition: isTransform(call).
+std::optional<Item> applyTransform(Findings& findings, const Item& call, Affine& worldFromObject);
+
+/// `text` inside the transform, for the scene to be written again.
+std::string transformed(const Affine& m, std::string_view text);
+
+}  // namespace trace::rayfile

@@ -1,0 +1,140 @@
+#include "formats/ray/syntax/syntax.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "formats/ray/syntax/parser.h"
+#include "formats/words.h"
+
+namespace trace::rayfile {
+namespace {
+
+constexpr std::size_t kNone = std::string_view::npos;
+
+}  // namespace
+
+std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+
+Syntax::Syntax(std::string file, std::string_view source) {
+  sources_.emplace_back().file = std::move(file);
+  sources_.back().text = source;
+  nodes_.reserve(source.size() / 6);  // a mesh has numbers of five characters and a separator, and brackets
+  parse(sources_.back());
+}
+
+std::uint32_t Syntax::include(std::string file, std::string source) {
+  const Source& last = sources_.back();
+  const auto base = static_cast<std::uint32_t>(last.base + last.text.size() + 1);
+  Source& added = sources_.emplace_back();
+  added.file = std::move(file);
+  added.owned = std::move(source);
+  added.text = added.owned;
+  added.base = base;
+  const auto first = static_cast<std::uint32_t>(nodes_.size());
+  parse(added);
+  return first;
+}
+
+void Syntax::parse(Source& source) {
+  if (source.base + source.text.size() >= std::numeric_limits<std::uint32_t>::max())
+    throw Error(Fault::limit, Place{source.file, 0, 0, {}}, "expected a scene of less than 4 GiB of text");
+  for (std::size_t newline = source.text.find('\n'); newline != kNone;
+       newline = source.text.find('\n', newline + 1))
+    source.lineStarts.push_back(static_cast<std::uint32_t>(newline + 1));
+  const Parsed parsed = parseRay(*this, source.text, source.base, nodes_);
+  hasKeys_ |= parsed.hasKeys;
+  usesLanguage_ |= parsed.usesLanguage;
+  for (const Parsed::Slip& slip : parsed.slips)
+    remark({slip.offset, "expected a number, found \"" + slip.text + "\": it is read as " + slip.readAs, ""});
+}
+
+const Syntax::Source& Syntax::sourceOf(std::size_t offset) const {
+  if (sources_.size() == 1) return sources_.front();
+  const auto after = std::upper_bound(sources_.begin(), sources_.end(), offset,
+                                      [](std::size_t at, const Source& source) { return at < source.base; });
+  return *(after - 1);
+}
+
+bool Syntax::isOfKind() const {
+  return nodes_.size() > 1 && nodes_[1].kind == Kind::word && sameWord(textOf(nodes_[1]), kKind);
+}
+
+Item Syntax::root() const { return {*this, 0}; }
+
+std::optional<Item> Syntax::itemAt(std::size_t offset) const {
+  const auto found = std::lower_bound(nodes_.begin() + 1, nodes_.end(), offset,
+                                      [](const Node& node, std::size_t at) { return node.offset < at; });
+  if (found == nodes_.end() || found->offset != offset) return {};
+  return Item(*this, static_cast<std::uint32_t>(found - nodes_.begin()));
+}
+
+Syntax::Line Syntax::line(const Source& source, std::size_t at) {
+  const auto after = std::upper_bound(source.lineStarts.begin(), source.lineStarts.end(), at);
+  std::size_t end = after == source.lineStarts.end() ? source.text.size() : *after - 1;
+  const std::size_t start = *(after - 1);
+  if (end > start && source.text[end - 1] == '\r') --end;
+  return {static_cast<std::size_t>(after - source.lineStarts.begin()), start, end};
+}
+
+Place Syntax::place(std::size_t offset) const { return place(offset, kNone); }
+
+Place Syntax::shortPlace(std::size_t offset) const {
+  constexpr std::size_t kLongLine = 200;
+  return place(offset, kLongLine);
+}
+
+Place Syntax::place(std::size_t offset, std::size_t longestLine) const {
+  const Source& source = sourceOf(offset);
+  const std::size_t at = offset - source.base;
+  const Line on = line(source, at);
+  const bool isLong = on.end - on.start > longestLine;
+  return {source.file, static_cast<int>(on.number), static_cast<int>(at - on.start) + 1,
+          std::string(isLong ? std::string_view() : source.text.substr(on.start, on.end - on.start))};
+}
+
+std::string Syntax::chain(std::uint32_t node) const {
+  constexpr int kMostFrames = 8;
+  std::string text;
+  int count = 0;
+  auto after = std::upper_bound(frames_.begin(), frames_.end(), node,
+                                [](std::uint32_t at, const Frame& frame) { return at < frame.first; });
+  while (after != frames_.begin() && count < kMostFrames) {
+    const Frame& frame = *--after;
+    if (node >= frame.end) continue;
+    text += (text.empty() ? "in " : ", in ") + frame.what + " at " + placeText(place(frame.offset));
+    ++count;
+  }
+  return text;
+}
+
+std::string_view Item::text() const {
+  std::string_view text = source();
+  if (node().quoted) text = text.substr(1, text.size() - 2);
+  return text;
+}
+
+std::size_t Item::count() const {
+  std::size_t n = 0;
+  for (Iterator child = begin(); child != end(); ++child) ++n;
+  return n;
+}
+
+std::string describe(const Item& item) {
+  const std::string_view text = item.source();
+  if (text.size() <= 40 && text.find('\n') == kNone)
+    return item.is(Kind::word) ? quoted(item.text()) : std::string(text);
+  switch (item.kind()) {
+    case Kind::number: return "a number of " + std::to_string(text.size()) + " characters";
+    case Kind::word: return quoted(text.substr(0, 37)) + "...";
+    case Kind::tuple: return "a list of " + std::to_string(item.count());
+    case Kind::block: return "{ ... }";
+    case Kind::entry: return std::string(item.key().substr(0, 40)) + " = ...";
+    case Kind::call:
+      return std::string(item.key().substr(0, 40)) + (item.value().is(Kind::tuple) ? "( ... )" : " { ... }");
+    default: return quoted(text.substr(0, 37)) + "...";
+  }
+  return {};
+}
+
+}  // namespace trace::rayfile

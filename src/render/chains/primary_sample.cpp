@@ -1,0 +1,76 @@
+#include "render/chains/primary_sample.h"
+
+#include <cmath>
+
+#include "math/noise.h"
+
+namespace trace {
+namespace {
+
+Vec2 uniformPair(std::uint64_t bits) { return {unitFromBits(bits), unitFromBits(mixBits(bits))}; }
+
+/// Two independent normal numbers (Box and Muller 1958).
+Vec2 normalPair(std::uint64_t bits) {
+  const Vec2 u = uniformPair(bits);
+  const Real radius = std::sqrt(-2 * std::log(1 - u.x)), angle = 2 * kPi * u.y;
+  return {radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+/// On the circle of length 1.
+Real wrapped(Real x) {
+  const Real within = x - std::floor(x);
+  return within < 1 ? within : 0;
+}
+
+}  // namespace
+
+void PrimarySample::offer(bool anywhere) {
+  ++step_;
+  ++offers_;
+  offersAnywhere_ = anywhere;
+}
+
+void PrimarySample::keep() {
+  if (offersAnywhere_) anywhere_ = step_;
+  offered_.clear();
+}
+
+void PrimarySample::undo() {
+  for (Pair* pair : offered_) {
+    pair->now = pair->before;
+    pair->moved = pair->movedBefore;
+  }
+  offered_.clear();
+  --step_;
+}
+
+std::uint64_t PrimarySample::bits(std::uint64_t branch, std::int64_t step) const {
+  return mixBits(branch ^ mixBits(moves_ + static_cast<std::uint64_t>(step)));
+}
+
+Vec2 PrimarySample::pair(std::uint64_t branch) {
+  const auto [at, isNew] = pairs_.try_emplace(branch);
+  Pair& pair = at->second;
+  if (isNew) pair.now = uniformPair(mixBits(branch ^ start_));
+  if (pair.moved < anywhere_) {
+    constexpr std::uint64_t kMissed = 0x6d6973736564ull;  // these numbers are not those of an offer
+    pair.now = uniformPair(bits(branch ^ kMissed, offers_));
+    pair.moved = anywhere_;
+  }
+  if (pair.moved == step_) return pair.now;
+  pair.before = pair.now;
+  pair.movedBefore = pair.moved;
+  offered_.push_back(&pair);
+  if (offersAnywhere_) {
+    pair.now = uniformPair(bits(branch, offers_));
+  } else {
+    // All small moves since the last one in one: the sum of normal numbers.
+    const Real size = size_ * std::sqrt(static_cast<Real>(step_ - pair.moved));
+    const Vec2 way = normalPair(bits(branch, offers_));
+    pair.now = {wrapped(pair.now.x + size * way.x), wrapped(pair.now.y + size * way.y)};
+  }
+  pair.moved = step_;
+  return pair.now;
+}
+
+}  // namespace trace

@@ -1,0 +1,89 @@
+// The light of lights and lamps that media and fog scatter to a ray.
+#include "render/lights/light_choice.h"
+#include "render/media/media.h"
+#include "render/rays/fog.h"
+
+namespace trace {
+
+void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers) {
+  const World& world = tracer.world();
+  const Fog fog(tracer.settings());
+  askLights(tracer, place.point, nullptr, numbers, [&](const AskedLight& asked) {
+    const Vec2 where = world.lightHasSize(asked.light) ? asked.numbers().next2() : kCenter;
+    const auto arriving = world.illuminate(asked.light, place.point, where);
+    // From beyond all numbers nothing comes.
+    if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) return;
+    const Ray toLight{place.point, arriving->toLight};
+    const Real left = fog.left(toLight, arriving->distance);
+    // A light of colour 1 is one of irradiance pi.
+    const Real scattered = phase(place.forward, dot(place.ray.direction, arriving->toLight));
+    const Color factor = place.share * arriving->intensity() * (kPi * scattered * left * asked.share);
+    if (isBlack(factor)) return;
+    const Color passed = throughBodies(
+        tracer, tracer.visible(place.point, arriving->toLight, arriving->distance, place.inside), toLight,
+        arriving->distance, numbers.branch(Branch::lightMedia, asked.branch));
+    sum.addScattered(asked.light, factor, passed, place.medium);
+  });
+}
+
+void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lamps& lamps, bool met,
+               const Sampler& numbers) {
+  if (lamps.empty()) return;
+  Sampler chances = numbers.branch(Branch::scatteredLamp);
+  const Real which = chances.next();
+  auto lamp = lamps.choose(place.point, which, chances.next2());
+  if (!lamp) return;
+  const Ray toLamp{place.point, lamp->toLight};
+  const Color seen = lamps.look(tracer, toLamp, *lamp, place.inside, tracer.chance(chances));
+  const Real scattered = phase(place.forward, dot(place.ray.direction, lamp->toLight));
+  Color factor = place.share * (scattered / lamp->density);
+  if (!place.medium) return sum.add(Term::Kind::fog, factor, seen);
+  if (!tracer.world().media().empty() && !isBlack(seen))
+    factor *= passedByBodies(tracer, toLamp, lamp->distance, numbers.branch(Branch::scatteredToLamp));
+  const Real other = met ? scattered : 0, square = lamp->density * lamp->density;
+  const ChanceTerm chance{lamp->density, other, other > 0 ? square / (square + other * other) : 1};
+  sum.add(factor * chance.share, seen, *place.medium, chance);
+}
+
+void addMedia(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
+              const Color& ambient, const Lamps* lamps, const Sampler& sampler) {
+  const MediumWay way = throughMedia(tracer, ray, t, inside, tracer.settings().fogSamples, Color(1), sampler);
+  coverWithMedia(sum, way);
+  std::uint32_t number = 0;
+  for (const MediumWay::Place& place : way.places) {
+    const MediumTerm term{MediumTerm::What::scatters, place.object, place.t, place.forward};
+    if (!isBlack(ambient)) sum.add(place.weight, ambient, term);
+    const ScatterPlace at{ray, ray.at(place.t), place.weight, place.forward, inside, term};
+    const Sampler numbers = sampler.branch(number++);
+    addLightsAt(sum, tracer, at, numbers);
+    if (lamps) addLampAt(sum, tracer, at, *lamps, false, numbers);
+  }
+}
+
+void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
+            const Color& ambient, const Lamps* lamps, const Sampler& sampler) {
+  const Settings& settings = tracer.settings();
+  const Fog fog(settings);
+  const World& world = tracer.world();
+  if (fog.none() || !isInOpenAir(inside, world)) return;
+  const Real stays = -std::expm1(-fog.depth(ray, t));  // scattered fraction along the ray
+  if (!(stays > 0)) return;
+  sum.cover(Term::Kind::fog, stays);
+  const Color scatters = settings.fogColor * stays;
+  if (!isBlack(ambient)) sum.add(Term::Kind::fog, scatters, ambient);
+
+  const int places = settings.fogSamples;
+  const Color share = scatters * (1.0 / places);
+  for (int k = 0; k < places; ++k) {
+    Sampler numbers = sampler.branch(static_cast<std::uint32_t>(k));
+    // Places are the denser the more light comes from there.
+    const Real depth = -std::log1p(-stays * ((k + numbers.next()) / places));
+    const Vec3 point = ray.at(fog.distance(ray, depth));
+    if (!isFinite(point)) continue;
+    const ScatterPlace at{ray, point, share, fog.forward(), inside, {}};
+    addLightsAt(sum, tracer, at, numbers);
+    if (lamps) addLampAt(sum, tracer, at, *lamps, false, numbers);
+  }
+}
+
+}  // namespace trace

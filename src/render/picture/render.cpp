@@ -1,0 +1,277 @@
+#include "render/picture/render.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <new>
+#include <optional>
+#include <tuple>
+
+#include "base/budget.h"
+#include "math/noise.h"
+#include "render/chains/metropolis.h"
+#include "render/integrators/make_integrator.h"
+#include "render/picture/passes.h"
+#include "render/samples/pixel.h"
+
+namespace trace {
+namespace {
+
+Tile intersection(const Tile& a, const Tile& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+std::int64_t pixelsIn(const Tile& area) {
+  return std::int64_t{std::max(0, area.x1 - area.x0)} * std::max(0, area.y1 - area.y0);
+}
+bool isIn(const Tile& area, int x, int y) {
+  return x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1;
+}
+
+/// Takes the samples of tiles; what a worker does.
+class TileRenderer {
+ public:
+  /// `chains`, if any, bring the light. `interrupt` may throw GivenUp.
+  TileRenderer(std::span<const Moment> moments, const Settings& settings, const Film& film,
+               const Metropolis* chains, std::function<void()> interrupt)
+      : budget_(std::move(interrupt)),
+        tracer_(moments, settings, {film.width(), film.height()}),
+        area_(areaOf(settings.region, {film.width(), film.height()})),
+        passes_(layersOf(settings)),
+        film_(film),
+        chains_(chains) {
+    if (film.layers() != passes_.size()) passes_.clear();
+    if (chains_) chainTracer_.emplace(chains_->tracer());
+    throws_ = film.takesSplats() && !chains_;
+  }
+
+  TileSamples take(std::int64_t tile, const Wave& wave) {
+    const BudgetScope scope(&budget_);
+    TileSamples samples{.area = intersection(film_.tile(tile), area_),
+                        .colors = {},
+                        .layers = std::vector<std::vector<Color>>(passes_.size())};
+    chains_           ? takeChain(tile, wave, samples)
+    : film_.corners() ? takeCorners(wave, samples)
+                      : takePixels(tile, wave, samples);
+    const bool isFirstJudged = wave.first < PixelSum::kFewest && wave.end >= PixelSum::kFewest;
+    if (isFirstJudged && film_.noiseTarget() > 0) lookBeside(tile, wave, samples);
+    return samples;
+  }
+
+  Statistics statistics() const {
+    Statistics sum = tracer_.statistics();
+    if (chainTracer_) sum += chainTracer_->statistics();
+    sum.badSamples += badCount_;  // those of chains are counted already
+    return sum;
+  }
+  std::vector<BadSample>& badSamples() { return bad_; }
+
+ private:
+  void takePixels(std::int64_t tile, const Wave& wave, TileSamples& samples) {
+    const Tile& area = samples.area;
+    samples.colors.reserve(static_cast<std::size_t>(pixelsIn(area) * wave.count()));
+    tracer_.collect(throws_ ? &samples.splats : nullptr);
+    for (int y = area.y0; y < area.y1; ++y)
+      for (int x = area.x0; x < area.x1; ++x) {
+        if (film_.settled(x, y)) continue;
+        for (int k = wave.first; k < wave.end; ++k) {
+          Real weight = 1;
+          const Color color = tracer_.sample(x, y, k, [&](const CameraRay& camera, const Sampler& sampler) {
+            weight = camera.weight;
+            if (!passes_.empty()) addPasses(camera, sampler, samples.layers);
+          });
+          if (weight != 1 && samples.weights.empty()) samples.weights.assign(samples.colors.size(), 1);
+          if (weight != 1 || !samples.weights.empty()) samples.weights.push_back(weight);
+          samples.colors.push_back(color);
+          samples.paths += throws_;
+          if (!isFinite(color)) noteBad({x, y, k});
+        }
+      }
+    if (throws_) throwFromBeside(film_.tile(tile), wave, samples);
+    std::erase_if(samples.splats, [&](const Splat& s) { return !isIn(area_, s.x, s.y); });
+  }
+
+  /// Light that samples of the tile's pixels beside the area bring into it, so that what is seen there is the
+  /// same as in the whole picture.
+  void throwFromBeside(const Tile& tile, const Wave& wave, TileSamples& samples) {
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        if (isIn(area_, x, y)) continue;
+        for (int k = wave.first; k < wave.end; ++k) tracer_.throwLight(x, y, k);
+        samples.paths += wave.count();
+      }
+  }
+
+  /// Pixels of the tile that lie beside the area, so that those in it stop as they do in the whole picture.
+  void lookBeside(std::int64_t number, const Wave& wave, TileSamples& samples) {
+    if (area_.x0 >= area_.x1 || area_.y0 >= area_.y1) return;
+    const Tile tile =
+        intersection(film_.tile(number), {area_.x0 - 1, area_.y0 - 1, area_.x1 + 1, area_.y1 + 1});
+    tracer_.collect(nullptr);
+    for (int y = tile.y0; y < tile.y1; ++y)
+      for (int x = tile.x0; x < tile.x1; ++x) {
+        if (isIn(area_, x, y)) continue;
+        samples.beside.push_back({x, y, firstErrorOf(tracer_, x, y, wave.end)});
+      }
+  }
+
+  /// Those of the wave's level that are to be looked at.
+  void takeCorners(const Wave& wave, TileSamples& samples) {
+    const CornerSamples& before = *film_.corners();
+    for (int y = samples.area.y0; y < samples.area.y1; ++y)
+      for (int x = samples.area.x0; x < samples.area.x1; ++x) {
+        samples.starts.push_back(samples.corners.size());
+        for (const Corner corner : before.wanted(x, y, wave.first)) {
+          const CornerPlace place{x, y, corner};
+          samples.corners.push_back(corner);
+          samples.colors.push_back(
+              tracer_.corner(place, [&](const CameraRay& camera, const Sampler& sampler) {
+                if (!passes_.empty()) addPasses(camera, sampler, samples.layers);
+              }));
+          if (!isFinite(samples.colors.back())) noteBad(numbered(before.userOf(place), wave.first));
+        }
+      }
+    samples.starts.push_back(samples.corners.size());
+  }
+
+  /// The corner's number among those of its pixel, as explain() counts them.
+  BadSample numbered(const CornerPlace& place, int level) const {
+    const CornerSamples& before = *film_.corners();
+    const auto corners = cornersOf(before.rules(), level, before.of(place.x, place.y));
+    const auto at = std::find(corners.begin(), corners.end(), place.corner);
+    return {place.x, place.y, static_cast<int>(at - corners.begin())};
+  }
+
+  /// The offset of the area, in the tiles before that one.
+  std::int64_t pixelsBefore(std::int64_t tile) {
+    if (pixelsBefore_.empty())
+      for (std::int64_t i = 0, pixels = 0; i <= film_.tiles(); ++i) {
+        pixelsBefore_.push_back(pixels);
+        if (i < film_.tiles()) pixels += pixelsIn(intersection(film_.tile(i), area_));
+      }
+    return pixelsBefore_[static_cast<std::size_t>(tile)];
+  }
+
+  /// One chain of as many samples; of the tile's own pixels only the passes are seen.
+  void takeChain(std::int64_t tile, const Wave& wave, TileSamples& samples) {
+    const Tile& area = samples.area;
+    samples.paths = pixelsIn(area) * wave.count();
+    samples.colors.assign(static_cast<std::size_t>(samples.paths), Color(0));
+    const std::uint64_t number = Metropolis::numberOf(tile, wave.first);
+    const std::int64_t before = pixelsBefore(film_.tiles()) * wave.first + pixelsBefore(tile) * wave.count();
+    samples.splats = chains_->chain(*chainTracer_, number, samples.paths, {}, before);
+    if (passes_.empty()) return;
+    for (int y = area.y0; y < area.y1; ++y)
+      for (int x = area.x0; x < area.x1; ++x)
+        for (int k = wave.first; k < wave.end; ++k)
+          tracer_.look(x, y, k, [&](const CameraRay& camera, const Sampler& sampler) {
+            addPasses(camera, sampler, samples.layers);
+          });
+  }
+
+  void addPasses(const CameraRay& camera, const Sampler& sampler, std::vector<std::vector<Color>>& layers) {
+    Tracer& tracer = tracer_.tracer();
+    const bool tooNear = !camera.hit && tracer.tooNear(camera.ray);
+    for (std::size_t i = 0; i < passes_.size(); ++i)
+      layers[i].push_back(camera.hit ? passes_[i]->value({camera, *camera.hit, tracer, sampler})
+                          : tooNear  ? passes_[i]->tooNear
+                                     : passes_[i]->background);
+  }
+
+  void noteBad(const BadSample& sample) {
+    ++badCount_;
+    if (bad_.size() < kMostBadSamples) bad_.push_back(sample);
+  }
+
+  Budget budget_;
+  PixelTracer tracer_;
+  const Tile area_;
+  std::vector<const PassRow*> passes_;
+  const Film& film_;
+  const Metropolis* chains_;
+  std::optional<PixelTracer> chainTracer_;
+  std::vector<std::int64_t> pixelsBefore_;
+  bool throws_ = false;         ///< samples bring light to other pixels, too
+  std::vector<BadSample> bad_;  ///< the first
+  std::uint64_t badCount_ = 0;
+};
+
+}  // namespace
+
+RenderResult render(const World& world, const Settings& settings, Film& film, Job& job) {
+  const auto integrator = makeIntegrator(world, settings, job);
+  return render(std::array{Moment{&world, integrator.get()}}, settings, film, job);
+}
+
+RenderResult render(std::span<const Moment> moments, const Settings& settings, Film& film, Job& job) {
+  using Clock = std::chrono::steady_clock;
+  Budget clock(budgetOfThread.budget);
+  if (!budgetOfThread.budget) clock.limitTime(settings.timeLimit);
+  std::atomic<bool> late{false};
+  // Looks at the time in the midst of a tile, of which one can take hours. Each worker has a copy.
+  const auto interrupt = [&, stopping = std::optional<Clock::time_point>()]() mutable {
+    if (clock.timeIsOver() && !job.cancel.exchange(true)) late = true;
+    if (!job.cancel) return;
+    const Clock::time_point now = Clock::now();
+    if (!stopping) stopping = now;
+    if (now - *stopping >= job.patience) throw GivenUp{};
+  };
+
+  const int threads = settings.threads > 0 ? settings.threads : hardwareThreads();
+  std::vector<std::unique_ptr<TileRenderer>> workers(static_cast<std::size_t>(threads));
+  const std::vector<Wave>& waves = film.waves();
+  std::size_t firstWave = 0;  // first wave of the current chunks
+  const auto waveOf = [&](std::int64_t chunk) {
+    return firstWave + static_cast<std::size_t>(chunk / film.tiles());
+  };
+  std::optional<Metropolis> chains;
+  const auto takeChunk = [&](std::int64_t chunk, int worker) {
+    const std::int64_t tile = chunk % film.tiles();
+    const std::size_t wave = waveOf(chunk);
+    if (film.has(tile, wave)) return;  // since before
+    auto& renderer = workers[static_cast<std::size_t>(worker)];
+    if (!renderer)
+      renderer =
+          std::make_unique<TileRenderer>(moments, settings, film, chains ? &*chains : nullptr, interrupt);
+    film.add(tile, wave, renderer->take(tile, waves[wave]));
+  };
+  const ChunkSizes samples{film.tiles() * waves.back().end,
+                           [&](std::int64_t chunk) { return waves[waveOf(chunk)].count(); }};
+  RenderResult result;
+  bool outOfMemory = false;
+  try {
+    if (film.takesSplats() && hasTrait(settings, Trait::byChains))
+      chains.emplace(moments, settings, Size{film.width(), film.height()}, job, interrupt);
+    if (chains) result.brightnessError = chains->brightnessError();
+    job.before = film.samplesDone();
+    const std::ptrdiff_t together = film.adaptive() ? 1 : std::ssize(waves);
+    for (; firstWave < waves.size() && !job.cancel; firstWave += static_cast<std::size_t>(together))
+      parallelChunks(film.tiles() * together, threads, job, takeChunk, samples);
+  } catch (const std::bad_alloc&) {
+    outOfMemory = true;
+    result.failure = "out of memory";
+  } catch (const std::exception& error) {
+    result.failure = error.what();
+  }
+  for (const auto& renderer : workers) {
+    if (!renderer) continue;
+    result.statistics += renderer->statistics();
+    result.badSamples.insert(result.badSamples.end(), renderer->badSamples().begin(),
+                             renderer->badSamples().end());
+  }
+  std::sort(result.badSamples.begin(), result.badSamples.end(), [](const BadSample& a, const BadSample& b) {
+    return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
+  });
+  result.badSamples.resize(std::min(result.badSamples.size(), kMostBadSamples));
+  result.end = film.complete()           ? End::finished
+               : outOfMemory             ? End::outOfMemory
+               : !result.failure.empty() ? End::failed
+               : late                    ? End::timeLimit
+                                         : End::cancelled;
+  return result;
+}
+
+}  // namespace trace

@@ -1,0 +1,201 @@
+// The camera rays of a pixel and what they bring: the same for a render, for one pixel again, and for its
+// explanation.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "image/film.h"
+#include "render/samples/integrator.h"
+#include "render/samples/outline.h"
+#include "render/world/footprint.h"
+
+namespace trace {
+
+/// Takes a picture's samples, one at a time, by one worker.
+class PixelTracer {
+ public:
+  /// `tree`, if any, records the rays. The moments' worlds and integrators must outlive it.
+  PixelTracer(std::span<const Moment> moments, const Settings& settings, const Size& size,
+              RayTree* tree = nullptr)
+      : moments_(moments.begin(), moments.end()), tree_(tree), rules_(settings, size) {
+    tracers_.reserve(moments.size());
+    for (const Moment& moment : moments) tracers_.emplace_back(*moment.world, settings, tree);
+  }
+  PixelTracer(const World& world, const Integrator& integrator, const Settings& settings, const Size& size,
+              RayTree* tree = nullptr)
+      : PixelTracer(std::array{Moment{&world, &integrator}}, settings, size, tree) {}
+
+  /// From now on what samples throw at other places of the picture is left there; null: nowhere.
+  void collect(std::vector<Splat>* splats) { splats_ = splats; }
+  /// The splats of the last sample, if they are collected.
+  const std::vector<Thrown>& thrown() const { return thrown_; }
+  /// Calls use(Splat) for each pixel that sees it.
+  template <class Use>
+  void spread(const Thrown& t, const Use& use) const {
+    rules_.spread(t.place, [&](int x, int y, Real share) { use(Splat{x, y, t.color * share}); });
+  }
+
+  /// How many a pixel has.
+  int samples() const { return rules_.samples(); }
+
+  /// The radiance of the camera ray of sample 0 <= k < samples(); may be NaN or infinite. Row y = 0 is the
+  /// top.
+  Color sample(int x, int y, int k) {
+    return sample(x, y, k, [](const CameraRay&, const Sampler&) {});
+  }
+  /// The same; look(CameraRay, Sampler) sees the ray after it was followed.
+  template <class Look>
+  Color sample(int x, int y, int k, Look&& look) {
+    const Sampler sampler(rules_, x, y, k);
+    return follow(sampler, rules_.middle(x, y), sampler.film(), look);
+  }
+  /// The radiance at a corner, likewise.
+  template <class Look>
+  Color corner(const CornerPlace& place, Look&& look) {
+    const Sampler sampler(rules_, place);
+    return follow(sampler, rules_.middle(place.x, place.y), {rules_.corner(place), 1}, look);
+  }
+  /// Collects what sample k throws at other places, and takes nothing else of it.
+  void throwLight(int x, int y, int k) {
+    const Sampler sampler(rules_, x, y, k);
+    Tracer& tracer = this->tracer(momentOf(sampler));
+    thrown_.clear();
+    moments_[now_].integrator->throwLight(tracer, sampler, thrown_);
+    spreadThrown();
+  }
+  /// The camera ray alone.
+  template <class Look>
+  void look(int x, int y, int k, Look&& look) {
+    const Sampler sampler(rules_, x, y, k);
+    withCamera(sampler, rules_.middle(x, y), sampler.film(),
+               [&](const CameraRay& camera) { look(camera, sampler); });
+  }
+  /// The contribution of a sample with these numbers, times what it counts, and where. The numbers choose its
+  /// place in the area of the picture, too.
+  Splat sample(SampleNumbers& numbers, const Tile& area) {
+    const Sampler sampler(rules_, numbers);
+    const auto split = [](Real u, int first, int end) {  // into a pixel and a place in it
+      const Real at = u * (end - first);
+      const int pixel = std::min(static_cast<int>(at), end - first - 1);
+      return std::pair(first + pixel, at - pixel);
+    };
+    const Vec2 u = sampler.branch(Branch::film).next2();
+    const auto [x, withinX] = split(u.x, area.x0, area.x1);
+    const auto [y, withinY] = split(u.y, area.y0, area.y1);
+    const FilmSample place = rules_.film(x, y, 0, {withinX, withinY});
+    return withCamera(sampler, rules_.middle(x, y), place, [&, x = x, y = y](const CameraRay& camera) {
+      return Splat{x, y, radiance(sampler, camera) * (camera.weight * rules_.filterWeight())};
+    });
+  }
+
+  /// The tracer of the moment of the last sample.
+  Tracer& tracer() { return tracers_[now_]; }
+  /// That of a moment.
+  Tracer& tracer(std::size_t moment) {
+    now_ = moment;
+    if (tree_ && moments_.size() > 1) tree_->moment = static_cast<int>(now_);
+    return tracers_[moment];
+  }
+  /// The statistics of all samples.
+  Statistics statistics() const {
+    Statistics sum;
+    for (const Tracer& tracer : tracers_) sum += tracer.statistics();
+    return sum;
+  }
+
+ private:
+  template <class Look>
+  Color follow(const Sampler& sampler, const Vec2& middle, const FilmSample& place, const Look& look) {
+    return withCamera(sampler, middle, place, [&](const CameraRay& camera) {
+      const Color color = radiance(sampler, camera);
+      look(camera, sampler);
+      return color;
+    });
+  }
+  /// Calls use(CameraRay) for the ray of a place of the picture, which counts for the pixel of that middle.
+  template <class Use>
+  std::invoke_result_t<const Use&, const CameraRay&> withCamera(const Sampler& sampler, const Vec2& middle,
+                                                                const FilmSample& drawn, const Use& use) {
+    Tracer& tracer = this->tracer(momentOf(sampler));
+    const World& world = tracer.world();
+    const CameraFrame& frame = world.camera();
+    const Vec2 place = frame.inEyeOf(middle, drawn.place);
+    const Vec2 lens = frame.optics.lens.radius > 0 ? sampler.branch(Branch::lens).next2() : kCenter;
+    const Ray ray = frame.ray(place, lens);
+    Footprint differentials;
+    if (world.wantsFootprints()) differentials = differentialsAt(frame, place, lens, ray);
+    Interfaces inside = tracer.interfacesAt(ray.origin);
+    const bool weighs = moments_[now_].integrator->weighsHoles();
+    const Real chance = weighs || !world.hasHoles() ? 0 : sampler.branch(Branch::cameraHole).next();
+    CameraRay camera{ray, tracer.cast(ray, RayKind::camera, inside, chance), std::move(inside), drawn.weight,
+                     differentials.get()};
+    if (tracer.settings().outlines > 0) camera.ink = inkAt(tracer, camera.hit, place, lens, rules_.size());
+    if (splats_) camera.thrown = &thrown_;
+    return use(camera);
+  }
+  Color radiance(const Sampler& sampler, const CameraRay& camera) {
+    thrown_.clear();
+    const Color radiance = moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
+    return spreadThrown() ? radiance : Color(std::numeric_limits<Real>::quiet_NaN());
+  }
+  /// False if something thrown is not finite: it is a part of the sample, which is as bad as that.
+  bool spreadThrown() {
+    for (const Thrown& t : thrown_)
+      if (!isFinite(t.color) || !std::isfinite(t.place.x) || !std::isfinite(t.place.y)) return false;
+    for (const Thrown& t : thrown_) spread(t, [&](const Splat& splat) { splats_->push_back(splat); });
+    return true;
+  }
+
+  /// The moment that a sample sees.
+  std::size_t momentOf(const Sampler& sampler) const {
+    if (moments_.size() == 1) return 0;
+    const Real chosen = sampler.branch(Branch::time).next() * static_cast<Real>(moments_.size());
+    return std::min(static_cast<std::size_t>(chosen), moments_.size() - 1);
+  }
+
+  /// To the rays of the samples beside this one, whatever the camera is.
+  [[gnu::noinline]] Footprint differentialsAt(const CameraFrame& camera, const Vec2& film, const Vec2& lens,
+                                              const Ray& ray) const {
+    const Vec2 step = rules_.spacing();
+    const Ray x = camera.ray({film.x + step.x, film.y}, lens),
+              y = camera.ray({film.x, film.y + step.y}, lens);
+    return Differentials{x.origin - ray.origin, y.origin - ray.origin, x.direction - ray.direction,
+                         y.direction - ray.direction};
+  }
+
+  std::vector<Moment> moments_;
+  std::vector<Tracer> tracers_;  ///< one for each
+  RayTree* tree_;
+  std::vector<Splat>* splats_ = nullptr;
+  std::vector<Thrown> thrown_;  ///< by the sample
+  std::size_t now_ = 0;
+  SampleRules rules_;
+};
+
+/// Adds the samples of the wave; calls see(color, weight) for each.
+template <class See>
+void addWave(PixelTracer& tracer, int x, int y, const Wave& wave, PixelSum& sum, const See& see) {
+  for (int k = wave.first; k < wave.end; ++k) {
+    Real weight = 1;
+    const Color color =
+        tracer.sample(x, y, k, [&](const CameraRay& ray, const Sampler&) { weight = ray.weight; });
+    see(color, weight);
+    sum.add(color, weight);
+  }
+}
+
+/// PixelSum::firstError() after so many samples.
+inline double firstErrorOf(PixelTracer& tracer, int x, int y, int samples) {
+  PixelSum sum;
+  addWave(tracer, x, y, {0, samples}, sum, [](const Color&, Real) {});
+  sum.noteFirstError();
+  return sum.firstError();
+}
+
+}  // namespace trace

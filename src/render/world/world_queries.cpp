@@ -1,0 +1,197 @@
+// Queries of the World by rays: one of the two files that see the structs of all shapes, so that the way from
+// the hierarchy to a crossing is inlined for each. Forms lie side by side, without a pointer to follow.
+#include "base/budget.h"
+#include "base/match.h"
+#include "geometry/mesh/mesh.h"
+#include "geometry/shape_list.h"
+#include "render/world/world.h"
+
+namespace trace {
+
+struct World::Forms {
+  std::vector<AnyForm> all;
+};
+
+void World::collectForms() {
+  auto forms = std::make_shared<Forms>();
+  forms->all.reserve(objects_.size());
+  for (const Instance& instance : objects_) forms->all.push_back(instance.shape.held().form);
+  forms_ = std::move(forms);
+}
+
+namespace {
+
+/// The nodes of a mesh are distinguished from those of the scene for observers.
+void enter(NodeCount&, std::uint32_t) {}
+void enter(NodeWatch& nodes, std::uint32_t object) { nodes.owner = object; }
+
+}  // namespace
+
+// --- the nearest crossing -----------------------------------------------------------------------------
+
+template <class Nodes>
+std::optional<Found> World::closest(const Ray& ray, Faces faces, QueryCounts<Nodes>& counts,
+                                    Real tMost) const {
+  std::optional<Found> best(std::in_place);
+  best->t = tMost;
+  const auto ask = [&](std::uint32_t object) {
+    checkBudget();
+    closestOf(object, ray, faces, counts, *best);
+    return false;
+  };
+  checkBudget();
+  for (std::uint32_t object : always_)
+    if (object != ray.leaves) ask(object);
+  if (!bvh_->nodes().empty())
+    bvh_->query(ray.origin, ray.direction, best->t, true, counts.nodes, ask, ray.leaves);
+  if (best->t == tMost) best.reset();
+  return best;
+}
+
+template <class Nodes>
+inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces faces,
+                             QueryCounts<Nodes>& counts, Found& best) const {
+  const Instance& instance = objects_[object];
+  const auto inItsSpace = [&](const Ray& ray) {
+    const MeshTree* mesh = instance.mesh.get();
+    if (!mesh) return closestOfShape(instance, object, ray, counts, best);
+    const std::size_t kind = instance.kind;
+    MeshHit met;
+    met.hit.t = best.t;
+    enter(counts.nodes, object);
+    const bool found = faces == Faces::both
+                           ? mesh->closest(ray, met, nullptr, MeshCounts{counts.nodes, counts.tests[kind]})
+                           : closestSeen(object, ray, faces, counts, met);
+    enter(counts.nodes, NodeWatch::kTop);
+    // At the same distance the object that comes first in the scene counts.
+    if (!found || (met.hit.t == best.t && object >= best.object)) return;
+    ++counts.hits[kind];
+    best = {met.hit.t, object, met.triangle, met.hit};
+  };
+  const Placement& placement = instance.placement;
+  placement.moved() ? inItsSpace(placement.into(worldRay)) : inItsSpace(worldRay);
+}
+
+template <class Nodes>
+bool World::closestSeen(std::uint32_t object, const Ray& ray, Faces faces, QueryCounts<Nodes>& counts,
+                        MeshHit& met) const {
+  const Instance& instance = objects_[object];
+  const auto seen = [&](const MeshHit& hit) { return included(faces, object, ray, hit); };
+  return instance.mesh->closest(ray, met, seen, MeshCounts{counts.nodes, counts.tests[instance.kind]});
+}
+
+template <class Nodes, class Visit>
+inline void World::crossingsOfShape(std::uint32_t object, const Ray& ray, const Real& tMost,
+                                    QueryCounts<Nodes>& counts, const Visit& visit) const {
+  const Instance& instance = objects_[object];
+  ++counts.tests[instance.kind];
+  match(forms_->all[object],
+        Overloaded{[](const Mesh&) {},
+                   [&](const auto& form) {
+                     visitCrossings(form, instance.approach, ray, Range{0, tMost}, visit);
+                   }});
+}
+
+template <class Nodes>
+void World::closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
+                           QueryCounts<Nodes>& counts, Found& best) const {
+  crossingsOfShape(object, ray, best.t, counts, [&](const Crossing& crossing) {
+    if (!(crossing.t > 0 && crossing.t <= best.t)) return;
+    const auto part = static_cast<std::uint64_t>(crossing.part);
+    if (!best.after(crossing.t, object, part)) return;
+    ++counts.hits[instance.kind];
+    best.t = crossing.t;
+    best.object = object;
+    best.part = part;
+  });
+}
+
+template std::optional<Found> World::closest(const Ray&, Faces, QueryCounts<NodeCount>&, Real) const;
+template std::optional<Found> World::closest(const Ray&, Faces, QueryCounts<NodeWatch>&, Real) const;
+
+SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
+  const Instance& instance = objects_[found.object];
+  const Placement& placement = instance.placement;
+  const Ray ray = placement.moved() ? placement.into(worldRay) : worldRay;
+  const SurfacePoint s =
+      match(forms_->all[found.object],
+            Overloaded{[&](const Mesh&) {
+                         return trace::surface(instance.mesh->data(), static_cast<std::uint32_t>(found.part),
+                                               found.triangle);
+                       },
+                       [&](const auto& shape) {
+                         const Crossing crossing{found.t, static_cast<std::int64_t>(found.part)};
+                         return surfaceOf(shape, instance.approach, ray, crossing);
+                       }});
+  return placement.moved() ? placement.outOf(s) : s;
+}
+
+// --- every crossing -----------------------------------------------------------------------------------
+
+template <class Nodes>
+bool World::crossAll(const Across<Nodes>& query) const {
+  bool ended = false;
+  const auto ask = [&](std::uint32_t object) {
+    checkBudget();
+    return ended = crossObject(object, query);
+  };
+  checkBudget();
+  const Ray& ray = query.ray;
+  for (std::uint32_t object : always_)
+    if (object != ray.leaves && ask(object)) return true;
+  if (!bvh_->nodes().empty())
+    bvh_->query(ray.origin, ray.direction, query.tMost, false, query.counts.nodes, ask, ray.leaves);
+  return ended;
+}
+
+template <class Nodes>
+inline bool World::crossObject(std::uint32_t object, const Across<Nodes>& query) const {
+  const Instance& instance = objects_[object];
+  const auto inItsSpace = [&](const Ray& ray) {
+    return instance.mesh ? crossMesh(object, ray, query) : crossShape(object, ray, query);
+  };
+  const Placement& placement = instance.placement;
+  return placement.moved() ? inItsSpace(placement.into(query.ray)) : inItsSpace(query.ray);
+}
+
+template <class Nodes>
+bool World::crossMesh(std::uint32_t object, const Ray& ray, const Across<Nodes>& query) const {
+  const Instance& instance = objects_[object];
+  const MeshTree& mesh = *instance.mesh;
+  const bool ends = query.opaqueEnds && instance.opaque;
+  bool ended = false;
+  const auto met = [&](const MeshHit& hit) {
+    if (!included(query.faces, object, ray, hit)) return false;
+    ++query.counts.hits[instance.kind];
+    return ended = ends || query.visit(Found{hit.hit.t, object, hit.triangle, hit.hit});
+  };
+  enter(query.counts.nodes, object);
+  mesh.crossings(ray, query.tMost, met, MeshCounts{query.counts.nodes, query.counts.tests[instance.kind]});
+  enter(query.counts.nodes, NodeWatch::kTop);
+  return ended;
+}
+
+template <class Nodes>
+bool World::crossShape(std::uint32_t object, const Ray& ray, const Across<Nodes>& query) const {
+  const bool ends = query.opaqueEnds && objects_[object].opaque;
+  bool ended = false;
+  Real wanted = query.tMost;
+  crossingsOfShape(object, ray, wanted, query.counts, [&](const Crossing& crossing) {
+    if (ended || !(crossing.t > 0 && crossing.t < query.tMost)) return;
+    ++query.counts.hits[objects_[object].kind];
+    ended = ends || query.visit(Found{crossing.t, object, static_cast<std::uint64_t>(crossing.part), {}});
+    if (ended) wanted = -kInfinity;
+  });
+  return ended;
+}
+
+void World::crossingsOf(std::uint32_t object, const Ray& ray, Real tMost, Statistics& statistics,
+                        VisitFound visit) const {
+  checkBudget();
+  crossObject(object, Across<NodeCount>{ray, tMost, Faces::both, false, statistics, visit});
+}
+
+template bool World::crossAll(const Across<NodeCount>&) const;
+template bool World::crossAll(const Across<NodeWatch>&) const;
+
+}  // namespace trace
