@@ -16,7 +16,7 @@ MORE = {"name": "str", "material": "Node | str | Part", "library": "str", "scale
 HEAD = '''"""Made by make_stubs.py from the lists of fields."""
 
 from os import PathLike
-from typing import Any, Callable, Sequence
+from typing import Any, Callable, Iterator, Sequence
 
 from numpy.typing import NDArray
 import numpy as np
@@ -106,6 +106,28 @@ class Difference:
     worst: tuple[int, int]
     heat: Picture
     def __getitem__(self, metric: str) -> float: ...
+    def keys(self) -> list[str]: ...
+
+class Grade:
+    name: str
+    file: str
+    verdict: str
+    passed: bool
+    problem: str
+    cause: str
+    unit: str
+    width: int
+    height: int
+    metrics: dict[str, float]
+
+class Grades:
+    pictures: list[Grade]
+    extra: list[str]
+    passed: int
+    stopped: str
+    def __len__(self) -> int: ...
+    def __getitem__(self, name: str) -> Grade: ...
+    def __iter__(self) -> Iterator[Grade]: ...
 '''
 
 TAIL = '''
@@ -113,6 +135,9 @@ def open(file: File, **options: Any) -> Scene: ...
 def kinds() -> list[Kind]: ...
 def options() -> list[FieldInfo]: ...
 def diff(reference: Any, test: Any, tolerance: float = 0) -> Difference: ...
+def grade(folder: File, reference: File, progress: OnProgress = None, *, render: bool = False,
+          limits: dict[str, float] | str | Sequence[str] | None = None, tolerance: float = 0, page: File | None = None,
+          strict: bool = False, scene_limit: float = 0, **options: Any) -> Grades: ...
 def read(file: File) -> Picture: ...
 def write(file: File, image: Any) -> None: ...
 def settings(**options: Any) -> Node: ...

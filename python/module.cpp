@@ -81,6 +81,12 @@ tr::Options optionsOf(const py::kwargs& given) {
   return options;
 }
 
+py::dict dictOf(const std::vector<std::pair<std::string, double>>& metrics) {
+  py::dict dict;
+  for (const auto& [name, value] : metrics) dict[py::str(name)] = value;
+  return dict;
+}
+
 // --- pictures
 // ------------------------------------------------------------------------------------------------
 
@@ -131,42 +137,114 @@ tr::Image imageOrFile(const py::handle& object) {
 /// traceray.Interrupted, a KeyboardInterrupt that keeps the picture so far.
 py::handle interrupted;
 
-tr::Render renderScene(const tr::Scene& scene, const std::optional<py::function>& progress,
-                       const py::kwargs& given) {
-  const tr::Options options = optionsOf(given);
+/// What Python did while Trace worked.
+struct Heard {
   std::optional<py::error_already_set> thrown;
-  bool stopped = false;
-  const tr::OnProgress watch = [&](const tr::Progress& now) {
+  bool interrupted = false;  ///< by Ctrl-C
+};
+
+/// Calls `progress` of Python, and looks for Ctrl-C. Both arguments outlive it.
+tr::OnProgress heardBy(const std::optional<py::function>& progress, Heard& heard) {
+  return [&](const tr::Progress& now) {
     const py::gil_scoped_acquire held;
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       return !progress || !(*progress)(now.fraction, now.seconds).is(py::bool_(false));
     } catch (py::error_already_set& error) {
-      stopped = error.matches(PyExc_KeyboardInterrupt);
-      thrown.emplace(error);
+      heard.interrupted = error.matches(PyExc_KeyboardInterrupt);
+      heard.thrown.emplace(error);
       return false;
     }
   };
-  std::optional<tr::Render> render;
-  std::exception_ptr failure;
-  {
-    const py::gil_scoped_release released;
-    try {
-      render.emplace(scene.render(options, watch));
-    } catch (...) {
-      failure = std::current_exception();
-    }
+}
+
+/// The result of work(), while other threads of Python run; null if it failed, with the failure.
+template <class Work>
+auto withoutGil(Work&& work, std::exception_ptr& failure) {
+  std::optional<decltype(work())> result;
+  const py::gil_scoped_release released;
+  try {
+    result.emplace(work());
+  } catch (...) {
+    failure = std::current_exception();
   }
-  if (thrown && stopped && render) {
+  return result;
+}
+
+tr::Render renderScene(const tr::Scene& scene, const std::optional<py::function>& progress,
+                       const py::kwargs& given) {
+  const tr::Options options = optionsOf(given);
+  Heard heard;
+  std::exception_ptr failure;
+  const tr::OnProgress watch = heardBy(progress, heard);
+  std::optional<tr::Render> render = withoutGil([&] { return scene.render(options, watch); }, failure);
+  if (heard.interrupted && render) {
     const py::object error =
         interrupted("the render was interrupted; what was traced is the attribute `render`");
     error.attr("render") = py::cast(std::move(*render));
     PyErr_SetObject(interrupted.ptr(), error.ptr());
     throw py::error_already_set();
   }
-  if (thrown) throw *thrown;
+  if (heard.thrown) throw *heard.thrown;
   if (failure) std::rethrow_exception(failure);
   return std::move(*render);
+}
+
+// --- grading
+// ---------------------------------------------------------------------------------------------------
+
+/// {"rmse": 6}, "rmse=6" or several such texts.
+std::vector<std::string> limitsOf(const py::object& given) {
+  if (given.is_none()) return {};
+  if (py::isinstance<py::str>(given)) return {given.cast<std::string>()};
+  std::vector<std::string> limits;
+  if (py::isinstance<py::dict>(given)) {
+    for (const auto& [name, value] : given.cast<py::dict>())
+      limits.push_back(name.cast<std::string>() + "=" + py::str(value).cast<std::string>());
+  } else {
+    for (const py::handle one : given) limits.push_back(one.cast<std::string>());
+  }
+  return limits;
+}
+
+tr::Grades gradeFolders(const py::object& folder, const py::object& reference,
+                        const std::optional<py::function>& progress, bool render, const py::object& limits,
+                        double tolerance, const py::object& page, bool strict, double sceneLimit,
+                        const py::kwargs& given) {
+  const std::string pictures = fileOf(folder), references = fileOf(reference);
+  const tr::GradeOptions options{.renderScenes = render,
+                                 .options = optionsOf(given),
+                                 .strict = strict,
+                                 .tolerance = tolerance,
+                                 .limits = limitsOf(limits),
+                                 .page = page.is_none() ? std::string() : fileOf(page),
+                                 .sceneLimit = sceneLimit};
+  Heard heard;
+  std::exception_ptr failure;
+  const tr::OnProgress watch = heardBy(progress, heard);
+  std::optional<tr::Grades> grades =
+      withoutGil([&] { return tr::grade(pictures, references, options, watch); }, failure);
+  if (heard.thrown) throw *heard.thrown;
+  if (failure) std::rethrow_exception(failure);
+  return std::move(*grades);
+}
+
+std::string textOf(const tr::Grade& grade) {
+  std::ostringstream text;
+  text << grade.verdict << "  " << grade.name;
+  for (const auto& [name, value] : grade.metrics) text << "  " << name << " " << value;
+  if (!grade.problem.empty()) text << "  " << grade.problem.substr(0, grade.problem.find('\n'));
+  if (!grade.cause.empty()) text << "  " << grade.cause;
+  return text.str();
+}
+
+std::string textOf(const tr::Grades& grades) {
+  std::string text;
+  for (const tr::Grade& grade : grades.pictures) text += textOf(grade) + "\n";
+  for (const std::string& file : grades.extra) text += file + ": has no reference\n";
+  if (!grades.stopped.empty()) text += grades.stopped + "\n";
+  return text + std::to_string(grades.passed) + " of " + std::to_string(grades.pictures.size()) +
+         " within the limits";
 }
 
 py::object fromJson(const std::string& json) { return py::module_::import("json").attr("loads")(json); }
@@ -421,13 +499,19 @@ PYBIND11_MODULE(_core, module) {
       .def_static(
           "open",
           [](const py::object& file, const py::kwargs& options) {
-            return tr::Scene::open(fileOf(file), optionsOf(options));
+            const std::string name = fileOf(file);
+            const tr::Options given = optionsOf(options);
+            const py::gil_scoped_release released;
+            return tr::Scene::open(name, given);
           },
           py::arg("file"), "Reads a scene file of any format.")
       .def_static(
           "from_text",
           [](const std::string& text, const py::object& file, const py::kwargs& options) {
-            return tr::Scene::fromText(text, fileOf(file), optionsOf(options));
+            const std::string name = fileOf(file);
+            const tr::Options given = optionsOf(options);
+            const py::gil_scoped_release released;
+            return tr::Scene::fromText(text, name, given);
           },
           py::arg("text"), py::arg("file") = "scene.ray",
           "Reads the text of a scene file; `file` is its name.")
@@ -487,12 +571,18 @@ PYBIND11_MODULE(_core, module) {
       .def(
           "explain_text",
           [](const tr::Scene& scene, int x, int y, int sample, const py::kwargs& options) {
-            return scene.explain(x, y, optionsOf(options), sample).text();
+            const tr::Options given = optionsOf(options);
+            const py::gil_scoped_release released;
+            return scene.explain(x, y, given, sample).text();
           },
           py::arg("x"), py::arg("y"), py::arg("sample") = 0, "The same in words.")
       .def(
           "lint",
-          [](const tr::Scene& scene, const py::kwargs& options) { return scene.lint(optionsOf(options)); },
+          [](const tr::Scene& scene, const py::kwargs& options) {
+            const tr::Options given = optionsOf(options);
+            const py::gil_scoped_release released;
+            return scene.lint(given);
+          },
           "What is likely a mistake.")
       .def(
           "save", [](const tr::Scene& scene, const py::object& file) { return scene.save(fileOf(file)); },
@@ -509,12 +599,7 @@ PYBIND11_MODULE(_core, module) {
       .def_readonly("identical", &tr::Difference::identical)
       .def_readonly("unit", &tr::Difference::unit)
       .def_property_readonly("metrics",
-                             [](const tr::Difference& difference) {
-                               py::dict metrics;
-                               for (const auto& [name, value] : difference.metrics)
-                                 metrics[py::str(name)] = value;
-                               return metrics;
-                             })
+                             [](const tr::Difference& difference) { return dictOf(difference.metrics); })
       .def("__getitem__", &tr::Difference::metric)
       .def("keys",
            [](const tr::Difference& difference) {
@@ -543,11 +628,54 @@ PYBIND11_MODULE(_core, module) {
   module.def(
       "diff",
       [](const py::object& reference, const py::object& test, double tolerance) {
-        return tr::diff(imageOrFile(reference), imageOrFile(test), tolerance);
+        const tr::Image wanted = imageOrFile(reference), found = imageOrFile(test);
+        const py::gil_scoped_release released;
+        return tr::diff(wanted, found, tolerance);
       },
       py::arg("reference"), py::arg("test"), py::arg("tolerance") = 0,
       "Compares two pictures: arrays, renders or names of files. Arrays of bytes are levels, others linear "
       "values.");
+
+  py::class_<tr::Grade>(module, "Grade",
+                        "A reference picture, and how far the picture of its name is from it.")
+      .def_readonly("name", &tr::Grade::name)
+      .def_readonly("file", &tr::Grade::file)
+      .def_readonly("verdict", &tr::Grade::verdict)
+      .def_readonly("passed", &tr::Grade::passed)
+      .def_readonly("problem", &tr::Grade::problem)
+      .def_readonly("cause", &tr::Grade::cause)
+      .def_readonly("unit", &tr::Grade::unit)
+      .def_readonly("width", &tr::Grade::width)
+      .def_readonly("height", &tr::Grade::height)
+      .def_property_readonly("metrics", [](const tr::Grade& grade) { return dictOf(grade.metrics); })
+      .def("__repr__", [](const tr::Grade& grade) { return "<Grade: " + textOf(grade) + ">"; });
+  py::class_<tr::Grades>(module, "Grades", "All pictures of a folder, worst first; print() shows a table.")
+      .def_readonly("pictures", &tr::Grades::pictures)
+      .def_readonly("extra", &tr::Grades::extra)
+      .def_readonly("passed", &tr::Grades::passed)
+      .def_readonly("stopped", &tr::Grades::stopped)
+      .def("__len__", [](const tr::Grades& grades) { return grades.pictures.size(); })
+      .def("__getitem__",
+           [](const tr::Grades& grades, const std::string& name) {
+             for (const tr::Grade& grade : grades.pictures)
+               if (grade.name == name) return grade;
+             throw py::key_error(name);
+           })
+      .def(
+          "__iter__",
+          [](const tr::Grades& grades) {
+            return py::make_iterator(grades.pictures.begin(), grades.pictures.end());
+          },
+          py::keep_alive<0, 1>())
+      .def("__repr__", [](const tr::Grades& grades) { return textOf(grades); });
+  module.def(
+      "grade", &gradeFolders, py::arg("folder"), py::arg("reference"), py::arg("progress") = py::none(),
+      py::kw_only(), py::arg("render") = false, py::arg("limits") = py::none(), py::arg("tolerance") = 0,
+      py::arg("page") = py::none(), py::arg("strict") = false, py::arg("scene_limit") = 0,
+      "Compares the pictures of a folder with reference pictures of the same names, as `ray grade` does. "
+      "`render` renders the folder's scenes, with the options given. `limits` are such as {\"rmse\": 6}; "
+      "without them pictures have to be equal. `page` names an HTML page to write. `scene_limit` is in "
+      "seconds. When `progress` returns False, the rest is not reached.");
   module.def(
       "read", [](const py::object& file) { return arrayOf(tr::Image::read(fileOf(file))); }, py::arg("file"),
       "A picture file as an array of floats: (height, width, 3).");

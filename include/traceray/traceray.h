@@ -229,7 +229,8 @@ TRACERAY_API Difference diff(const std::string& reference, const std::string& te
 // -----------------------------------------------------------------------------------------------
 
 /// Options of a render by their names, without dashes before them: {{"width", 640}, {"integrator", "path"}}.
-/// They override those of the scene. docs/options.md is the table.
+/// They override those of the scene. Options that a program gives, here or by choose(), also override what
+/// the option `quality` stands for. docs/options.md is the table.
 using Options = Fields;
 
 struct Progress {
@@ -239,6 +240,42 @@ struct Progress {
 /// Called when a render begins and then some times a second, by the thread that called render(). False stops
 /// the render, which keeps what was traced. An exception stops it too, and leaves render().
 using OnProgress = std::function<bool(const Progress&)>;
+
+/// How `grade` compares a folder of pictures, or of scenes, with a folder of reference pictures.
+struct TRACERAY_API GradeOptions {
+  bool renderScenes = false;  ///< render the folder's scenes instead of reading its pictures
+  Options options{};          ///< for these renders
+  bool strict = false;        ///< warnings about a scene are errors
+  double tolerance = 0;       ///< differences up to this do not count as beyond
+  /// "rmse=6": pictures are equal enough while all hold; without limits, while nothing is beyond.
+  std::vector<std::string> limits{};
+  std::string page{};     ///< an HTML page to write, with all pictures; "" for none
+  double sceneLimit = 0;  ///< seconds that one scene may take; 0 for no limit
+};
+/// A reference picture, and how far the picture of its name is from it.
+struct TRACERAY_API Grade {
+  std::string name{};  ///< of the reference, seen from its folder
+  std::string file{};  ///< what was compared with it; "" if it is missing
+  /// "identical", "within", "beyond", "sizes differ", "not reached", "unreadable" or "missing".
+  std::string verdict{};
+  bool passed = false;    ///< identical or within
+  std::string problem{};  ///< why it could not be compared
+  std::string cause{};    ///< one change of the whole picture that explains a failure, or ""
+  std::string unit{};     ///< "levels" or "values"
+  int width = 0, height = 0;
+  std::vector<std::pair<std::string, double>> metrics{};  ///< empty if it could not be compared
+};
+struct TRACERAY_API Grades {
+  std::vector<Grade> pictures{};     ///< worst first
+  std::vector<std::string> extra{};  ///< files of the folder that have no reference
+  std::size_t passed = 0;
+  std::string stopped{};  ///< why some pictures were not reached; "" if all were
+};
+/// What `ray grade` does. Pairs are files of one name, whatever their suffixes. When `progress` returns
+/// false, the pictures that are left are not reached. Throws Error where a folder cannot be read, or holds no
+/// reference picture.
+TRACERAY_API Grades grade(const std::string& folder, const std::string& reference,
+                          const GradeOptions& options = {}, const OnProgress& progress = {});
 
 /// Why a pixel has its colour: the tree of its rays.
 class TRACERAY_API Explanation {
@@ -269,9 +306,9 @@ class TRACERAY_API Render {
   bool finished() const;
   /// "finished", "cancelled", "time limit", "out of memory", or "failed: " and the reason.
   std::string end() const;
-  double seconds() const;      ///< of tracing, on the clock
-  std::uint64_t rays() const;  ///< that were traced
-  std::vector<Problem> warnings() const;
+  double seconds() const;                 ///< of tracing, on the clock
+  std::uint64_t rays() const;             ///< that were traced
+  std::vector<Problem> warnings() const;  ///< those of the scene, then those of the render
 
   /// Linear light, without tone and transfer curve; without noise, if the option `denoise` was on.
   const Image& image() const;
@@ -357,7 +394,8 @@ class TRACERAY_API Scene {
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
 
-  std::vector<Problem> warnings() const;  ///< of reading and adding
+  /// About the scene as it is: a warning of a field goes when the field is set anew.
+  std::vector<Problem> warnings() const;
 
   /// Adds a shape, a solid of solids (its field "objects" is a list of nodes), a light, the camera, the
   /// background or settings. Shapes take `scale`, `rotate` (axis and degrees) and `translate`, in this order,

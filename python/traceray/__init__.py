@@ -12,15 +12,16 @@
 `camera`, `background` and `settings` make the others. help(tr.shapes.torus) shows its fields.
 """
 
+import difflib
 import inspect
 import types
 
 from . import _core
-from ._core import (Difference, Error, FieldInfo, Interrupted, Kind, Node, Part, Problem, Render, Scene, __version__,
-                    diff, kinds, options, read, write)
+from ._core import (Difference, Error, FieldInfo, Grade, Grades, Interrupted, Kind, Node, Part, Problem, Render, Scene,
+                    __version__, diff, grade, kinds, options, read, write)
 
-__all__ = ["Difference", "Error", "FieldInfo", "Interrupted", "Kind", "Node", "Part", "Problem", "Render", "Scene",
-           "background", "camera", "diff", "kinds", "lights", "materials", "open", "options", "read", "settings",
+__all__ = ["Difference", "Error", "FieldInfo", "Grade", "Grades", "Interrupted", "Kind", "Node", "Part", "Problem",
+           "Render", "Scene", "background", "camera", "diff", "grade", "kinds", "lights", "materials", "open", "options", "read", "settings",
            "shapes", "textures", "write"]
 
 open = Scene.open
@@ -77,12 +78,42 @@ def docstring(kind):
     return "\n".join(lines)
 
 
+def _is_read(kind, name):
+    """Does the reader know the field? It takes a few names that no list has, as `colour`."""
+    node = Node(kind.keyword, **{name: 1})
+    if kind.category == "texture":
+        node = Node("lambert", diffuse=node)
+    if kind.category in ("texture", "material"):
+        node = Node("sphere", material=node)
+    try:
+        Scene().add(node)
+    except Error as error:
+        return not any(f'no field "{name}"' in problem.what or problem.what == f'"{name}" is not known'
+                       for problem in error.problems)
+    return True
+
+
+def _check_fields(kind, given):
+    """Raises TypeError for a field that the kind does not have, before the node is added to anything."""
+    known = [name for name, _, _ in parameters(kind)]
+    for name in given:
+        if name in known or _python_name(name) in known or _is_read(kind, name.removesuffix("_")):
+            continue
+        text = f'{kind.keyword} has no field "{name}"'
+        if kind.keyword == "sphere" and name == "radius":
+            text += "; scale=2 makes it twice as large"
+        else:
+            text += "".join(f'; did you mean "{near}"?' for near in difflib.get_close_matches(name, known, 1))
+        raise TypeError(text + "; it has " + ", ".join(known))
+
+
 def _builder(kind):
     solid = takes_objects(kind)
 
     def build(*objects, **fields):
         if objects and not solid:
             raise TypeError(f"{kind.keyword} takes fields by their names, as in {kind.keyword}(name=...)")
+        _check_fields(kind, fields)
         if objects:
             fields["objects"] = [*objects]
         return Node(kind.keyword, **fields)

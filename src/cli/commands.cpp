@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -147,12 +148,19 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
   return understood ? codeOf(command, arguments, fault) : static_cast<int>(fault);
 }
 
-/// Nothing was typed, and there is no window to open.
+/// Nothing was typed, and there is no window to open: as the courses' programs did, it renders a scene of its
+/// own, if its files are not there yet.
 int runAlone() {
+  constexpr const char* kScene = "scene.ray";
   const Console console;
   console.last(false, briefHelp());
-  console.error(noStudio());
-  return static_cast<int>(Fault::usage);
+  std::error_code ignored;
+  if (std::filesystem::exists(kScene, ignored) || std::filesystem::exists("scene.png", ignored)) {
+    console.error(noWindow());
+    return static_cast<int>(Fault::usage);
+  }
+  if (const int code = run({"new", kScene}); code != kDone) return code;
+  return run({kScene, "--quality", "draft"});
 }
 
 }  // namespace
@@ -244,7 +252,7 @@ std::span<const Command> commands() {
 }
 
 int run(const std::vector<std::string>& words) {
-  if (words.empty()) return studioProgram().empty() ? runAlone() : run({"gui"});
+  if (words.empty()) return opensWindows() ? run({"gui"}) : runAlone();
   if (const Command* command = findCommand(words.front()))
     return runCommand(*command, {words.begin() + 1, words.end()}, true);
   return runCommand(commands().front(), words, false);

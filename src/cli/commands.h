@@ -55,8 +55,10 @@ std::string_view chosenFormat(const Arguments& arguments, std::string_view comma
 
 /// The file of the studio's program, which lies beside this one; "" if it was not built.
 std::string studioProgram();
-/// Says that it was not, and how to get it.
-Error noStudio();
+/// It was built, and there is a display.
+bool opensWindows();
+/// Says which of the two is missing, and what to do.
+Error noWindow();
 
 // The functions of the table; each in its own file.
 int renderCommand(const Arguments& arguments, const Console& console);

@@ -26,7 +26,8 @@ constexpr std::array<std::string_view, 5> kExplainFormats{"text", "json", "obj",
 
 /// Whole numbers with commas between, as many as asked. Throws Error(Fault::usage).
 template <std::size_t N>
-std::array<int, N> wholeNumbers(const std::string& flag, const std::string& text, const char* expected) {
+std::array<int, N> wholeNumbers(const std::string& flag, const std::string& text, const char* expected,
+                                const char* hint) {
   std::array<int, N> numbers{};
   std::string_view rest = text;
   for (std::size_t i = 0; i < N; ++i) {
@@ -34,7 +35,7 @@ std::array<int, N> wholeNumbers(const std::string& flag, const std::string& text
     const bool good = number && number->value >= 0 && number->value < 1e6 &&
                       number->value == static_cast<int>(number->value) &&
                       (number->length < rest.size() ? i + 1 < N && rest[number->length] == ',' : i + 1 == N);
-    if (!good) throw Error(Fault::usage, flag + ": expected " + expected + ", found \"" + text + "\"");
+    if (!good) throw Error(Fault::usage, flag + ": expected " + expected + ", found \"" + text + "\"", hint);
     numbers[i] = static_cast<int>(number->value);
     rest.remove_prefix(std::min(number->length + 1, rest.size()));
   }
@@ -66,9 +67,12 @@ int explainCommand(const Arguments& arguments, const Console& console) {
   if (arguments.pixel.empty())
     throw Error(Fault::usage, "ray explain: expected --pixel X,Y, found none",
                 "--pixel 0,0 is at the top left of the picture");
-  const auto [x, y] = wholeNumbers<2>("--pixel", arguments.pixel, "two whole numbers X,Y from 0 on");
-  const int sample =
-      arguments.sample.empty() ? 0 : wholeNumbers<1>("--sample", arguments.sample, "a whole number")[0];
+  const auto [x, y] = wholeNumbers<2>("--pixel", arguments.pixel, "two whole numbers X,Y from 0 on",
+                                      "--pixel 0,0 is at the top left of the picture");
+  const int sample = arguments.sample.empty()
+                         ? 0
+                         : wholeNumbers<1>("--sample", arguments.sample, "a whole number",
+                                           "--sample 0 is the first; the answer lists the colours of all")[0];
   for (const Choice& choice : arguments.choices) {
     if (choice.option != "region") continue;
     Settings given;

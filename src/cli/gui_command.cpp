@@ -1,4 +1,5 @@
 // ray gui, and ray alone: becomes ray-studio, the program beside this one that has the window.
+#include <cstdlib>
 #include <filesystem>
 
 #include "cli/commands.h"
@@ -12,12 +13,36 @@ std::string studioProgram() {
   return std::filesystem::exists(studio, ignored) ? studio : "";
 }
 
+namespace {
+
 Error noStudio() {
   return {Fault::io,
           "the studio, the window of Trace, was not built: there is no ray-studio in \"" + ownFolder() + "\"",
           "./dev studio, in the source of Trace, installs what it needs (libimgui-dev libglfw3-dev "
           "libgl-dev) and builds it; beside the Debian package trace-ray install trace-ray-studio; ray SCENE "
           "renders without a window"};
+}
+
+bool hasDisplay() {
+#ifdef __APPLE__
+  return true;
+#else
+  const auto isSet = [](const char* name) {
+    const char* value = std::getenv(name);
+    return value && *value;
+  };
+  return isSet("DISPLAY") || isSet("WAYLAND_DISPLAY");
+#endif
+}
+
+}  // namespace
+
+bool opensWindows() { return !studioProgram().empty() && hasDisplay(); }
+
+Error noWindow() {
+  if (studioProgram().empty()) return noStudio();
+  return {Fault::usage, "there is no display to open the studio's window on",
+          "ray SCENE renders without a window; ray new writes a first scene"};
 }
 
 int guiCommand(const Arguments& arguments, const Console&) {

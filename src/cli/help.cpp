@@ -8,6 +8,7 @@
 #include "cli/flags.h"
 #include "cli/help_parts.h"
 #include "cli/terminal.h"
+#include "formats/kind_defaults.h"
 #include "scene/conventions.h"
 
 namespace trace::cli {
@@ -97,8 +98,10 @@ std::string flagsOf(const Option& option) {
 }
 
 std::string defaultOf(const Option& option) {
-  std::string value = option.get(Settings{});
-  return option.kind == Option::Kind::region && value == "0,0,0,0" ? "the whole picture" : value;
+  const std::string value = option.get(Settings{});
+  if (option.kind == Option::Kind::region && value == "0,0,0,0") return "the whole picture";
+  const std::string_view ofKind = kindDefaultOf(option.name);
+  return ofKind.empty() ? value : value + "; " + std::string(ofKind) + " in Trace 1 scenes";
 }
 
 std::string shortValues(const Option& option) {
@@ -253,9 +256,12 @@ std::string optionsMarkdown() {
       "not edit.\n\n"
       "Every option is a flag of `ray render` and `ray info`, and a keyword of `settings { }` in a scene "
       "file. The\n"
-      "scene file overrides a default, and the command line overrides the scene file. Switches take "
-      "`--flag`,\n"
-      "`--flag on`, `--flag off` and `--no-flag`.\n";
+      "scene file overrides a default, and the command line overrides the scene file. Where scenes that "
+      "begin "
+      "with\n"
+      "`Trace 1` have another default, both are listed. Switches take `--flag`, `--flag on`, `--flag off` "
+      "and "
+      "`--no-flag`.\n";
   for (std::string_view group : optionGroups()) {
     text += "\n## " + std::string(group) +
             "\n\n| flag | values | default | what it does | source |\n|---|---|---|---|---|\n";

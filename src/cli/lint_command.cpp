@@ -1,4 +1,5 @@
 // ray lint SCENE: what is likely a mistake, for people or as JSON. Schema: docs/lint.md.
+#include <algorithm>
 #include <array>
 
 #include "app/lint/lint.h"
@@ -64,8 +65,14 @@ int lintCommand(const Arguments& arguments, const Console& console) {
   const std::vector<LintFinding> findings = lint(session.scene(), settings, world, messages.all());
   const std::string& scene = session.scene().file;
   const std::string text = json ? lintJson(scene, findings) : lintText(scene, findings);
+  const bool choosesQuality = std::any_of(arguments.choices.begin(), arguments.choices.end(),
+                                          [](const Choice& choice) { return choice.option == "quality"; });
   if (const std::string chosen = chosenText(session.scene(), settings, exposure); !chosen.empty())
-    console.line(LogLevel::info, "note: " + chosen);
+    console.line(LogLevel::info,
+                 "note: " + chosen +
+                     (choosesQuality || settings.quality == Quality::none
+                          ? ""
+                          : "; checked for this quality, and with --quality draft for a draft"));
   if (arguments.output.empty()) {
     printResult(text);
   } else {

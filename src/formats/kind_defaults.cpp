@@ -13,15 +13,18 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_smooth.h"
 #include "geometry/traced.h"
+#include "scene/picture_size.h"
+#include "scene/quality.h"
 
 namespace trace {
 namespace {
 
-constexpr Real kPlainFov = 40, kPlainAspect = 4.0 / 3;
+constexpr Real kPlainFov = 40;
 
 struct KindChoice {
   std::string_view option, value;
 };
+constexpr Quality kKindQuality = Quality::good;
 /// Light is computed as nature has it, and shown as a screen and an eye expect it.
 constexpr std::array kKindChoices{KindChoice{"width", "640"},
                                   KindChoice{"quality", "good"},
@@ -72,10 +75,15 @@ bool givesLight(const Scene& scene) {
 
 void addCamera(Scene& scene, const KindGiven& given, const Box3& seen) {
   Camera& camera = scene.camera;
+  if (!given.aspect) {
+    camera.aspectratio = kUsualAspect;
+    scene.freeAspect = {kUsualAspect, given.horizontalFov    ? FreeAspect::Keeps::across
+                                      : given.cameraPosition ? FreeAspect::Keeps::upward
+                                                             : FreeAspect::Keeps::both};
+  }
   if (given.cameraPosition && given.cameraDirection) return;
   if (!given.cameraPosition && !given.cameraDirection) {
-    const Camera before = camera;
-    camera = framing(seen, kPlainFov, given.aspect ? before.aspectratio : kPlainAspect);
+    camera = framing(seen, kPlainFov, camera.aspectratio);
     scene.kindDefaults.emplace_back("a camera that shows all objects");
     return;
   }
@@ -98,6 +106,13 @@ void addCamera(Scene& scene, const KindGiven& given, const Box3& seen) {
   framed.far = camera.far;
   camera = framed;
   scene.kindDefaults.emplace_back("a camera so far away that it shows all objects");
+}
+
+/// A picture of which the file gives both sides.
+void fitCamera(Scene& scene) {
+  if (scene.freeAspect.chosen == 0 || !isGiven(scene, "width") || !isGiven(scene, "height")) return;
+  scene.camera = cameraFor(scene, resolve({scene.choices}));
+  scene.freeAspect.chosen = scene.camera.aspectratio;
 }
 
 /// Meshes without normals look round where their faces meet at less than this.
@@ -177,7 +192,8 @@ void completeBareMesh(Scene& scene) {
   const bool hasLights = !isPlainView(scene);
   const Box3 box = bounds(scene);
   if (scene.camera == framing(box)) {
-    scene.camera = framing(box, kPlainFov, kPlainAspect);
+    scene.camera = framing(box, kPlainFov, kUsualAspect);
+    scene.freeAspect = {kUsualAspect, FreeAspect::Keeps::both};
     scene.kindDefaults.emplace_back("a camera that shows all objects");
   }
   if (!hasLights) {
@@ -219,9 +235,19 @@ Box3 boundsOfInterest(const Scene& scene) {
   return flat && across(*largest) > kMuchLarger * across(others) ? others : all;
 }
 
+std::string_view kindDefaultOf(std::string_view option) {
+  std::string_view value;
+  for (const Choice& choice : choicesOf(kKindQuality))
+    if (choice.option == option) value = choice.value;
+  for (const KindChoice& choice : kKindChoices)
+    if (choice.option == option) value = choice.value;
+  return value == findOption(option).get(Settings{}) ? std::string_view() : value;
+}
+
 void addKindDefaults(Scene& scene, const KindGiven& given, const Place& place) {
   const Box3 seen = boundsOfInterest(scene);
   addCamera(scene, given, seen);
+  fitCamera(scene);
   for (Material& material : scene.materials) completeMaterial(material);
   smoothMeshes(scene);
   letLightsReach(scene, given, seen);

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
@@ -14,17 +15,24 @@
 
 namespace trace {
 
+/// width / height of a picture whose shape the file leaves to Trace.
+inline constexpr Real kUsualAspect = 4.0 / 3;
+
 /// The parts of a file on which defaults depend.
 struct KindGiven {
   bool cameraPosition = false, cameraDirection = false;
   std::optional<Vec3> lookAt{};
-  bool aspect = false;
+  bool aspect = false, horizontalFov = false;
   /// Lights, by their numbers, of which nothing says how they fade.
   std::vector<std::size_t> fading{};
 };
 
 /// Completes the scene. `place` is where the file says its kind; the choices of options carry it.
 void addKindDefaults(Scene& scene, const KindGiven& given, const Place& place);
+
+/// The value of the option in such a file, of which the quality gives a part; "" if that is the option's
+/// default.
+std::string_view kindDefaultOf(std::string_view option);
 
 /// Completes the scene of a file of meshes that is rendered by itself: its meshes look smooth where they have
 /// no normals, and a better camera and light take the place of those of sceneOf() (formats/model.h). Any

@@ -41,6 +41,7 @@ void load(const std::string& path, Loaded& loaded) {
 }
 
 constexpr std::size_t kMostNamed = 3, kLongName = 80;
+constexpr std::string_view kUnread = " cannot be read: ";
 
 }  // namespace
 
@@ -100,6 +101,10 @@ bool loadTextures(Scene& scene, Messages& messages) {
   return unread.empty();
 }
 
+bool isOfUnreadTextures(const Message& warning) {
+  return warning.what.starts_with("the texture") && warning.what.find(kUnread) != std::string::npos;
+}
+
 void UnusedTextures::note(std::string_view name, const Place& place) {
   if (names_.empty()) place_ = place;
   if (known_.emplace(name).second) names_.emplace_back(name.substr(0, kLongName));
@@ -132,7 +137,7 @@ void UnusedTextures::reportUnread(Messages& messages, std::string_view reason) c
   const bool isWord = std::all_of(names_.begin(), names_.end(), [](const std::string& file) {
     return file.find_first_of("./\\") == file.npos;  // as in diffuse = "red"
   });
-  messages.warn(place_, list() + " cannot be read: " + std::string(reason),
+  messages.warn(place_, list() + std::string(kUnread) + std::string(reason),
                 std::string("a checker of magenta and black shows instead") +
                     (isWord ? "; a colour is (red, green, blue), each from 0 to 1" : ""));
 }

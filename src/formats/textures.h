@@ -22,6 +22,9 @@ namespace trace {
 /// (base/read_scope.h).
 bool loadTextures(Scene& scene, Messages& messages);
 
+/// Is it that warning?
+bool isOfUnreadTextures(const Message& warning);
+
 /// The path of namedFile() (base/named_file.h).
 std::string pictureFile(const std::string& from, const std::string& name);
 

@@ -127,8 +127,17 @@ std::vector<Kind> kinds() {
     if (type.keyword == "polymesh") addMeshFields(kind);
     addFields<trace::ObjectLinks>(kind);
   }
-  trace::forEachType<trace::Light>(
-      [&]<class Light>(Light*) { addFields<trace::LightLinks>(all.emplace_back(kindOf<Light>("light"))); });
+  trace::forEachType<trace::Light>([&]<class Light>(Light*) {
+    Kind& kind = all.emplace_back(kindOf<Light>("light"));
+    if constexpr (requires(Light light) { light.quadratic; })
+      kind.fields.push_back({.name = "power",
+                             .type = "number",
+                             .unit = "watts",
+                             .most = trace::kNoLimit,
+                             .help = "emitted power, whose tint is color",
+                             .usual = 0});
+    addFields<trace::LightLinks>(kind);
+  });
   for (const trace::ModelType& type : trace::modelTypes())
     addFields<trace::Material>(all.emplace_back(kindOf("material", trace::MaterialModel(type))));
   for (const trace::TextureType& type : trace::textureTypes())
@@ -138,7 +147,17 @@ std::vector<Kind> kinds() {
                            .type = "vector",
                            .help = "a point to look at, in place of viewdir",
                            .usual = Value::List{}});
-  all.push_back(kindOf<trace::Background>("background"));
+  camera.fields.push_back({.name = "horizontal_fov",
+                           .type = "number",
+                           .unit = "degrees",
+                           .most = 180,
+                           .help = "field of view across the picture, in place of fov",
+                           .usual = 0});
+  Kind& background = all.emplace_back(kindOf<trace::Background>("background"));
+  background.fields.push_back({.name = "color",
+                               .type = "color",
+                               .help = "one colour for the whole picture, in place of colors",
+                               .usual = Value::List{}});
   return all;
 }
 

@@ -37,6 +37,7 @@ class ParsedFields {
   }
 
   rayfile::Findings& findings() { return findings_; }
+  const std::string& text() const { return text_; }
   /// The block `{ ... }`.
   rayfile::Item block() const {
     auto item = syntax_.root().begin();
@@ -227,7 +228,9 @@ Node PartState::node() const {
 }
 
 void PartState::set(const Fields& fields) {
+  if (fields.empty()) return;
   guarded([&] {
+    const trace::ReadScope scope = owner->readScope();
     switch (category) {
       case kObject: return setObject(fields);
       case kLight: return setLight(fields);
@@ -268,10 +271,13 @@ void PartState::setObject(const Fields& fields) {
         !reason.empty())
       throw Error(Error::Kind::scene, std::string(reason));
     check(object.shape);
-    trace::Messages ofPictures;
-    loadTextures(scene, ofPictures);
-    owner->warnings.insert(owner->warnings.end(), warnings.begin(), warnings.end());
-    owner->warnings.insert(owner->warnings.end(), ofPictures.all().begin(), ofPictures.all().end());
+    owner->loadTextures();
+    owner->dropWarnings(kObject, id, fields);
+    const std::uint32_t before = scene.objects[index()].material;
+    const auto users = std::count_if(scene.objects.begin(), scene.objects.end(),
+                                     [&](const trace::Object& o) { return o.material == before; });
+    if (object.material != before && users == 1) owner->dropWarnings(kMaterial, before, {});
+    owner->warn(kObject, id, warnings, parsed.text());
   } catch (...) {
     scene.materials.resize(materials);
     throw;
@@ -288,15 +294,18 @@ void PartState::setMaterial(const Fields& fields) {
   if (!gives(fields, "name")) after.name = before.name;
   const std::vector<trace::Message> warnings = parsed.finish();
   scene.materials[index()] = std::move(after);
-  trace::Messages ofPictures;
   try {
-    loadTextures(scene, ofPictures);
+    owner->loadTextures();
   } catch (...) {
     scene.materials[index()] = before;
     throw;
   }
-  owner->warnings.insert(owner->warnings.end(), warnings.begin(), warnings.end());
-  owner->warnings.insert(owner->warnings.end(), ofPictures.all().begin(), ofPictures.all().end());
+  const bool isOther = gives(fields, "model") || gives(fields, "library");
+  const Fields dropped = isOther ? Fields{{"material", ""}} : fields;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (scene.objects[i].material == id) owner->dropWarnings(kObject, owner->objectIds[i], dropped);
+  owner->dropWarnings(kMaterial, id, isOther ? Fields{} : fields);
+  owner->warn(kMaterial, id, warnings, parsed.text());
 }
 
 rayfile::PartGiven PartState::readAgain(const Node& node, trace::Scene& into) const {
@@ -304,16 +313,19 @@ rayfile::PartGiven PartState::readAgain(const Node& node, trace::Scene& into) co
   rayfile::PartGiven said;
   // The parts of the scene that nodes name stay known.
   into.file = owner->scene.file;
+  const std::string text = node.inLanguage();
   try {
-    said = rayfile::readPart(owner->folder() + keyword(), node.inLanguage(), into, messages);
-    loadTextures(into, messages);
+    said = rayfile::readPart(owner->folder() + keyword(), text, into, messages);
+    trace::Messages reported;  // by allWarnings()
+    if (!loadTextures(into, reported)) owner->lacksTextures = true;
   } catch (const trace::Error& error) {
     std::vector<trace::Message> all = error.messages();
     for (trace::Message& message : all)
       if (message.place.line > 1) --message.place.line;  // that of the header
     throw trace::Error(error.fault(), std::move(all));
   }
-  owner->warnings.insert(owner->warnings.end(), messages.all().begin(), messages.all().end());
+  owner->dropWarnings(category, id, {});
+  owner->warn(category, id, messages.all(), text, 2);
   return said;
 }
 
@@ -348,7 +360,9 @@ void PartState::setCamera(const Fields& fields) {
   rayfile::PartGiven said = readAgain(changed(trace::Camera::kKeyword, fields, std::move(others)), one);
   owner->scene.camera = one.camera;
   said.kind.fading = given.fading;
+  said.kind.horizontalFov |= given.horizontalFov && !gives(fields, "fov");
   owner->given = said.kind;
+  if (gives(fields, "aspectratio")) owner->scene.freeAspect = {};
 }
 
 void PartState::setBackground(const Fields& fields) {

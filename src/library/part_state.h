@@ -15,7 +15,7 @@
 namespace traceray {
 
 struct PartState {
-  enum Category { kObject, kLight, kMaterial, kCamera, kBackground };
+  using Category = PartCategory;
 
   std::shared_ptr<SceneState> owner;
   Category category = kObject;
@@ -46,7 +46,8 @@ struct PartState {
   void setMaterial(const Fields& fields);
   void setCamera(const Fields& fields);
   void setBackground(const Fields& fields);
-  /// Reads the node into a scene of its own. Throws trace::Error.
+  /// Reads the node into a scene of its own; its warnings take the place of those of the part. Throws
+  /// trace::Error.
   trace::rayfile::PartGiven readAgain(const Node& node, trace::Scene& into) const;
 };
 

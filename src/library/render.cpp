@@ -1,12 +1,9 @@
-// Rendering for programs: a thread of its own traces, while the caller's hears how far it is and may stop it.
+// Rendering for programs.
+#include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <condition_variable>
 #include <exception>
 #include <map>
-#include <mutex>
 #include <optional>
-#include <thread>
 
 #include "app/explain/explain_json.h"
 #include "app/explain/explain_text.h"
@@ -21,6 +18,7 @@
 #include "library/guard.h"
 #include "library/images.h"
 #include "library/scene_state.h"
+#include "library/watched_work.h"
 #include "render/picture/passes.h"
 #include "scene/integrators.h"
 
@@ -29,6 +27,7 @@ namespace traceray {
 struct RenderState {
   trace::Session session;
   trace::RenderResult result;
+  std::vector<trace::Message> ofScene;  ///< warnings of reading and adding
   double seconds = 0;
   std::optional<trace::Picture> rendered, picture;  ///< with and without noise
   std::optional<Image> image;
@@ -51,66 +50,6 @@ namespace {
 
 /// Ends what goes on before the first ray.
 struct StoppedEarly {};
-
-/// Runs work() in a thread of its own; this one calls `progress` meanwhile.
-class WatchedWork {
- public:
-  WatchedWork(trace::Job& job, const OnProgress& progress) : job_(job), progress_(progress) {}
-
-  /// Returns what `progress` threw.
-  template <class Work>
-  std::exception_ptr run(const Work& work) {
-    std::thread thread([&] {
-      trace::Budget budget([this] {
-        if (stop_ && early_) throw StoppedEarly{};
-      });
-      const trace::BudgetScope scope(&budget);
-      try {
-        work(budget);
-      } catch (...) {
-        failure_ = std::current_exception();
-      }
-      const std::lock_guard lock(mutex_);
-      done_ = true;
-      changed_.notify_one();
-    });
-    std::exception_ptr thrown;
-    for (bool done = false; !done;) {
-      try {
-        if (!stop_ && !progress_({job_.fraction(), seconds()})) stop();
-      } catch (...) {
-        thrown = std::current_exception();
-        stop();
-      }
-      std::unique_lock lock(mutex_);
-      done = changed_.wait_for(lock, std::chrono::milliseconds(100), [&] { return done_; });
-    }
-    thread.join();
-    if (thrown) return thrown;
-    if (failure_) std::rethrow_exception(failure_);
-    return nullptr;
-  }
-  /// From now on a stop keeps what is traced.
-  void tracingBegins() { early_ = false; }
-
- private:
-  void stop() {
-    stop_ = true;
-    job_.cancel = true;
-  }
-  double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
-
-  trace::Job& job_;
-  const OnProgress& progress_;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::atomic<bool> stop_{false}, early_{true};
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  bool done_ = false;
-  std::exception_ptr failure_;
-};
 
 double secondsOf(const trace::Session& session) {
   for (const trace::Phase& phase : session.phases())
@@ -144,7 +83,12 @@ std::string Render::end() const {
 }
 double Render::seconds() const { return state_->seconds; }
 std::uint64_t Render::rays() const { return state_->result.statistics.allRays(); }
-std::vector<Problem> Render::warnings() const { return problemsOf(state_->session.messages().all()); }
+std::vector<Problem> Render::warnings() const {
+  std::vector<trace::Message> all = state_->ofScene;
+  for (const trace::Message& message : state_->session.messages().all())
+    if (std::find(all.begin(), all.end(), message) == all.end()) all.push_back(message);
+  return problemsOf(all);
+}
 
 const Image& Render::image() const {
   return guarded([&]() -> const Image& {
@@ -242,22 +186,34 @@ Explanation Render::explain(int x, int y, int sample) const {
 Render Scene::render(const Options& options, const OnProgress& progress) const {
   std::exception_ptr thrown;  // by `progress`: it is the caller's own
   Render render = guarded([&] {
+    const trace::ReadScope scope = state_->readScope();
     auto state = std::make_unique<RenderState>();
     Opened of = opened(*state_, choicesOf(options));
+    state->ofScene = state_->allWarnings();
     trace::Session& session = state->session;
     session.open(std::move(of.scene), of.settings, std::move(of.sceneAt));
     if (!progress) {
       session.build();
       state->result = session.renderPicture();
     } else {
-      WatchedWork watched(session.job(), progress);
+      std::atomic<bool> isStopped{false}, isEarly{true};  // later a stop keeps what is traced
+      trace::Budget budget([&] {
+        if (isStopped && isEarly) throw StoppedEarly{};
+      });
       try {
-        thrown = watched.run([&](trace::Budget& budget) {
-          budget.limitTime(of.settings.timeLimit);
-          session.build();
-          watched.tracingBegins();
-          state->result = session.renderPicture();
-        });
+        thrown = runWatched(
+            budget,
+            [&] {
+              budget.limitTime(of.settings.timeLimit);
+              session.build();
+              isEarly = false;
+              state->result = session.renderPicture();
+            },
+            progress, [&] { return session.job().fraction(); },
+            [&] {
+              isStopped = true;
+              session.job().cancel = true;
+            });
       } catch (const StoppedEarly&) {
         throw Error(Error::Kind::limit, "the render was stopped before its first ray");
       }

@@ -51,7 +51,9 @@ Scene Scene::fromText(std::string_view text, const std::string& file, const Opti
   return guarded([&] { return Scene(read(file, std::string(text), options)); });
 }
 
-std::vector<Problem> Scene::warnings() const { return problemsOf(state_->warnings); }
+std::vector<Problem> Scene::warnings() const {
+  return guarded([&] { return problemsOf(state_->allWarnings()); });
+}
 
 Part Scene::part(int category, std::uint64_t id) {
   return Part(std::make_shared<PartState>(PartState{state_, static_cast<PartState::Category>(category), id}));
@@ -59,15 +61,19 @@ Part Scene::part(int category, std::uint64_t id) {
 
 Part Scene::add(const Node& node) {
   return guarded([&] {
-    const std::size_t objects = state_->scene.objects.size(), lights = state_->scene.lights.size();
+    const std::size_t objects = state_->scene.objects.size(), lights = state_->scene.lights.size(),
+                      warnings = state_->partWarnings.size();
     state_->add(node.inLanguage());
-    if (state_->scene.objects.size() > objects) return part(PartState::kObject, state_->objectIds[objects]);
-    if (state_->scene.lights.size() > lights) return part(PartState::kLight, state_->lightIds[lights]);
+    if (state_->scene.objects.size() > objects) return part(kObject, state_->objectIds[objects]);
+    if (state_->scene.lights.size() > lights) return part(kLight, state_->lightIds[lights]);
     if (node.keyword == trace::Camera::kKeyword) return camera();
     if (node.keyword == trace::Background::kKeyword) return background();
     if (node.keyword == "settings") return camera();
+    const std::vector<PartWarning> why(state_->partWarnings.begin() + static_cast<std::ptrdiff_t>(warnings),
+                                       state_->partWarnings.end());
+    state_->partWarnings.resize(warnings);
     throw Error(Error::Kind::scene, node.keyword + ": nothing of it is seen",
-                state_->warnings.empty() ? "" : state_->warnings.back().what);
+                why.empty() ? "" : why.back().message.what);
   });
 }
 
@@ -77,43 +83,41 @@ void Scene::addText(std::string_view statements) {
 
 std::vector<Part> Scene::objects() {
   std::vector<Part> parts;
-  for (const std::uint64_t id : state_->objectIds) parts.push_back(part(PartState::kObject, id));
+  for (const std::uint64_t id : state_->objectIds) parts.push_back(part(kObject, id));
   return parts;
 }
 
 std::vector<Part> Scene::lights() {
   std::vector<Part> parts;
-  for (const std::uint64_t id : state_->lightIds) parts.push_back(part(PartState::kLight, id));
+  for (const std::uint64_t id : state_->lightIds) parts.push_back(part(kLight, id));
   return parts;
 }
 
 std::vector<Part> Scene::materials() {
   std::vector<Part> parts;
-  for (std::size_t i = 0; i < state_->scene.materials.size(); ++i)
-    parts.push_back(part(PartState::kMaterial, i));
+  for (std::size_t i = 0; i < state_->scene.materials.size(); ++i) parts.push_back(part(kMaterial, i));
   return parts;
 }
 
-Part Scene::camera() { return part(PartState::kCamera, 0); }
-Part Scene::background() { return part(PartState::kBackground, 0); }
+Part Scene::camera() { return part(kCamera, 0); }
+Part Scene::background() { return part(kBackground, 0); }
 
 Part Scene::object(std::string_view name) {
   const std::size_t at = findNamed("object", name, state_->scene.objects,
                                    [](const trace::Object& o) -> const std::string& { return o.name; });
-  return part(PartState::kObject, state_->objectIds[at]);
+  return part(kObject, state_->objectIds[at]);
 }
 
 Part Scene::light(std::string_view name) {
   const std::size_t at =
       findNamed("light", name, state_->scene.lights,
                 [](const trace::LightSource& l) -> const std::string& { return l.links.name; });
-  return part(PartState::kLight, state_->lightIds[at]);
+  return part(kLight, state_->lightIds[at]);
 }
 
 Part Scene::material(std::string_view name) {
-  return part(PartState::kMaterial,
-              findNamed("material", name, state_->scene.materials,
-                        [](const trace::Material& m) -> const std::string& { return m.name; }));
+  return part(kMaterial, findNamed("material", name, state_->scene.materials,
+                                   [](const trace::Material& m) -> const std::string& { return m.name; }));
 }
 
 void Scene::choose(const std::string& option, const Value& value) {
@@ -126,9 +130,10 @@ std::string Scene::chosen(const std::string& option, const Options& options) con
 
 std::vector<Problem> Scene::lint(const Options& options) const {
   return guarded([&] {
+    const trace::ReadScope scope = state_->readScope();
     Opened of = opened(*state_, choicesOf(options));
     trace::Messages messages;
-    for (const trace::Message& message : state_->warnings)
+    for (const trace::Message& message : state_->allWarnings())
       messages.warn(message.place, message.what, message.hint);
     readSurroundings(of.scene, of.settings, {.memory = trace::allowedMemory(of.settings)}, messages);
     const trace::World world = compile(of.scene, of.settings, messages);

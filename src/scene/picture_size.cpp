@@ -51,4 +51,20 @@ Settings settingsFor(const Camera& camera, std::initializer_list<std::span<const
   return settings;
 }
 
+Camera cameraFor(const Scene& scene, const Settings& settings) {
+  Camera camera = scene.camera;
+  const FreeAspect& free = scene.freeAspect;
+  const bool isOpen =
+      free.chosen > 0 && camera.aspectratio == free.chosen;  // else the file or an edit gives it
+  if (!isOpen || settings.height == 0) return camera;
+  const Real sides = Real(settings.width) / settings.height * (isAnaglyph(settings.stereo) ? 2 : 1);
+  camera.aspectratio = sides / eyesAcross(settings.stereo);
+  const Real across = free.chosen / camera.aspectratio;  // keeps the angle across
+  const Real stretch = free.keeps == FreeAspect::Keeps::upward   ? 1
+                       : free.keeps == FreeAspect::Keeps::across ? across
+                                                                 : max(1, across);
+  if (stretch != 1) camera.fov = std::atan(std::tan(camera.fov * kPi / 360) * stretch) * 360 / kPi;
+  return camera;
+}
+
 }  // namespace trace

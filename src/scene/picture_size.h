@@ -5,6 +5,7 @@
 #include <span>
 
 #include "scene/options.h"
+#include "scene/scene.h"
 #include "shading/cameras/camera.h"
 
 namespace trace {
@@ -14,5 +15,8 @@ namespace trace {
 /// taken as they are where a layer gives both, and in the scene's own.
 /// Throws Error as resolve() does, and Error(Fault::limit) for a side that would be too long.
 Settings settingsFor(const Camera& camera, std::initializer_list<std::span<const Choice>> layers);
+
+/// The scene's camera for the picture of these settings: with FreeAspect, the one of its shape.
+Camera cameraFor(const Scene& scene, const Settings& settings);
 
 }  // namespace trace

@@ -55,6 +55,15 @@ struct UnusedMaterial {
   bool operator==(const UnusedMaterial&) const = default;
 };
 
+/// The shape of a picture that the file leaves open. A picture of which both sides are given then has another
+/// camera, rather than pixels that are not square.
+struct FreeAspect {
+  enum class Keeps { upward, across, both };  ///< which angle of the camera; `both`: neither gets smaller
+  Real chosen = 0;                            ///< the camera's aspectratio by default; 0: the file gives it
+  Keeps keeps = Keeps::upward;
+  bool operator==(const FreeAspect&) const = default;
+};
+
 /// Copied and compared in one .cpp: it is slow to compile.
 struct Scene {
   Scene();
@@ -69,6 +78,7 @@ struct Scene {
   std::string format;   ///< name of the format it was read from
   std::string picture;  ///< where a render goes that names no file; empty: the scene's name in this folder
   Camera camera;
+  FreeAspect freeAspect;
   Background background;
   std::vector<LightSource> lights;
   std::vector<Material> materials;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/view/room.h"
+#include "scene/picture_size.h"
 #include "studio/landmarks.h"
 #include "studio/rays_view.h"
 #include "studio/space_lines.h"
@@ -284,7 +285,8 @@ void drawSpace(Studio& studio) {
                        ImGui::GetMouseDragDelta(0).y == 0;
   const Document& document = studio.workspace.document;
   const Real aspect = size.x / size.y;
-  const CameraFrame camera = frame(document.scene().camera, document.settings().cameraAxes);
+  const CameraFrame camera =
+      frame(cameraFor(document.scene(), document.settings()), document.settings().cameraAxes);
   moveCamera(studio, fitted(camera, aspect), size);
   const CameraFrame world = view.fromCamera ? fitted(camera, aspect) : view.orbit.frame(aspect);
   CameraFrame local = world;

@@ -59,7 +59,7 @@ void expectNearlyTheSame(const Part& part, double most, const std::vector<Choice
   EXPECT_LT(a.samples, 0.4 * most * b.pixels) << part.scene;
 }
 
-// Of parts of pictures; docs/sampling.md has the figures of the whole.
+// These use parts of pictures; docs/developers/methods.md has the figures of whole ones.
 
 TEST(AdaptiveScenes, SubdivideByItsDefaultIsWithinALevelForLessThanTwoFifthsOfTheRays) {
   for (const Part& part : {Part{"antialias.ray", "0,70,60,110"},

@@ -47,7 +47,7 @@ TEST(Denoising, CornellBecomesMoreExact) {
   const auto session = with("16", true);
   const Picture noisy = session->film().picture(), clean = session->picture();
   const double before = relativeError(noisy, truth), after = relativeError(clean, truth);
-  // In a picture so small edges are everywhere; docs/denoising.md has larger ones.
+  // In so small a picture edges are everywhere; docs/developers/methods.md has figures of larger ones.
   EXPECT_LT(after, before / (kSanitized ? 1.3 : 1.8)) << "before " << before << ", after " << after;
   EXPECT_EQ(noisy, with("16", false)->picture()) << "the film is that of the plain render";
   EXPECT_GT(meanChange(change(noisy, clean)), 0.5);

@@ -179,7 +179,8 @@ TEST_F(Cli, EachCommandHasItsOwnHelp) {
 TEST_F(Cli, AloneWithoutAStudioTellsWhatToType) {
   std::filesystem::create_directory(path("bin"));
   std::filesystem::copy(test::rayProgram(), path("bin/ray"));  // with no ray-studio beside it
-  const int status = std::system((path("bin/ray") + " >" + path("o") + " 2>" + path("e")).c_str());
+  write("scene.ray", kWhite);  // it would write one, and render it
+  const int status = std::system(("cd " + folder() + " && bin/ray >o 2>e").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 2);
   EXPECT_EQ(readFile(path("o")), "");
   const std::string said = readFile(path("e"));

@@ -9,6 +9,7 @@
 #include "image/development.h"
 #include "image/srgb.h"
 #include "program.h"
+#include "scene/picture_size.h"
 #include "scene/quality.h"
 #include "shading/lights/light.h"
 #include "support/paths.h"
@@ -46,6 +47,18 @@ double meanLevel(const Picture& picture) {
 }
 
 using Kind = ProgramTest;
+
+TEST_F(Kind, RayAloneWithoutADisplayRendersAFirstScene) {
+  const Variables noDisplay{{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
+  const auto first = run({}, noDisplay);
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_TRUE(contains(first.err, "wrote scene.png (640x480)")) << first.err;
+  EXPECT_GT(meanLevel(readPicture(path("scene.png"))), 60);
+  EXPECT_EQ(readFile(path("scene.ray")).substr(0, 7), "Trace 1");
+  const auto again = run({}, noDisplay);
+  EXPECT_EQ(again.code, 2) << "nothing is written over";
+  EXPECT_TRUE(contains(again.err, "ray SCENE renders without a window")) << again.err;
+}
 
 TEST_F(Kind, ABareObjectIsAPictureWorthLookingAt) {
   writeFile(path("ball.ray"), "Trace 1\nsphere { }\n");
@@ -229,6 +242,98 @@ TEST(KindDefaults, TheCameraFollowsWhatIsSaidOfIt) {
   EXPECT_LT(length(seen.size()), 5);
   const std::string plane = "plane { }\n";
   EXPECT_LT(length(boundsOfInterest(read("Trace 1\n" + objects + plane)).size()), 5);
+}
+
+TEST(KindDefaults, ThePictureIsOf4To3UnlessItsSidesAreGiven) {
+  const std::string camera = "camera { position = (0, 0, 9); look_at = (0, 0, 0); fov = 40 }\nsphere { }\n";
+  const auto aspect = [](const std::string& text) { return read(text).camera.aspectratio; };
+  EXPECT_EQ(aspect("Trace 1\n" + camera), kUsualAspect);
+  EXPECT_EQ(aspect("Trace 1\nsphere { }"), kUsualAspect);
+  EXPECT_EQ(aspect("Trace 1\ncamera { aspectratio = 2 }\nsphere { }"), 2);
+  EXPECT_EQ(aspect("SBT-raytracer 1.0\n" + camera), 1) << "files of the courses keep their meaning";
+  EXPECT_EQ(aspect("Trace 1\nsettings { width = 300; height = 200 }\n" + camera), 1.5);
+  const auto fitted = [](const Scene& scene, int width, int height) {
+    Settings settings;
+    settings.width = width;
+    settings.height = height;
+    return cameraFor(scene, settings);
+  };
+  const Scene free = read("Trace 1\n" + camera);
+  EXPECT_EQ(fitted(free, 100, 0), free.camera);
+  EXPECT_EQ(fitted(free, 100, 100).aspectratio, 1);
+  EXPECT_EQ(fitted(free, 100, 100).fov, 40);
+  EXPECT_EQ(fitted(read("Trace 1\ncamera { aspectratio = 2 }\nsphere { }"), 100, 100).aspectratio, 2);
+  const Scene all = read("Trace 1\nsphere { }");
+  EXPECT_EQ(fitted(all, 200, 100).fov, all.camera.fov);
+  EXPECT_GT(fitted(all, 100, 100).fov, all.camera.fov) << "it still shows all objects";
+  const Scene across = read(
+      "Trace 1\ncamera { position = (0, 0, 9); look_at = (0, 0, 0); horizontal_fov = 60 }\n"
+      "sphere { }");
+  EXPECT_NEAR(fitted(across, 100, 100).fov, 60, 1e-9) << "the angle across stays";
+}
+
+TEST_F(Kind, ABallIsRoundInAPictureOfAnyShape) {
+  writeFile(path("ball.ray"),
+            "Trace 1\ncamera { position = (0, 0, 5); look_at = (0, 0, 0); fov = 40 }\n"
+            "background { color = (0, 0, 0) }\nsphere { material = { emissive = (1, 1, 1) } }\n");
+  const auto picture = [&](std::vector<std::string> flags) {
+    flags.insert(flags.begin(),
+                 {"ball.ray", "ball.png", "--quality", "none", "--integrator", "whitted", "-w", "40"});
+    EXPECT_EQ(run(flags).code, 0);
+    return readPicture(path("ball.png"));
+  };
+  EXPECT_EQ(picture({}).height, 30);
+  const Picture tall = picture({"--height", "60"});
+  int across = 0, down = 0;
+  for (int x = 0; x < 40; ++x) across += luminanceOf(tall.at(x, 30)) > 0;
+  for (int y = 0; y < 60; ++y) down += luminanceOf(tall.at(20, y)) > 0;
+  EXPECT_GT(across, 10);
+  EXPECT_NEAR(across, down, 2);
+}
+
+TEST_F(Kind, HelpListsItsDefaultsAndLintSaysForWhichQualityItLooks) {
+  std::string help;
+  for (const char c : run({"help", "render"}).out)
+    if (c != '\n' && (c != ' ' || !help.ends_with(' '))) help += c;
+  EXPECT_TRUE(contains(help, "default 400; 640 in Trace 1 scenes"));
+  EXPECT_TRUE(contains(help, "default 1; 64 in Trace 1 scenes"));
+  EXPECT_EQ(kindDefaultOf("quality"), "good");
+  EXPECT_EQ(kindDefaultOf("depth"), "8");
+  EXPECT_EQ(kindDefaultOf("seed"), "");
+  for (const Option& option : options()) {
+    const Scene scene = read("Trace 1\nsphere { }\n");
+    const std::string value = option.get(settingsFor(scene, {scene.choices}));
+    const std::string_view ofKind = kindDefaultOf(option.name);
+    EXPECT_EQ(ofKind.empty() ? option.get(Settings{}) : std::string(ofKind), value) << option.name;
+  }
+  writeFile(path("ball.ray"), "Trace 1\nsphere { }\n");
+  const std::string said = "checked for this quality, and with --quality draft for a draft";
+  EXPECT_TRUE(contains(run({"lint", "ball.ray"}).err, said));
+  EXPECT_FALSE(contains(run({"lint", "ball.ray", "--quality", "draft"}).err, said));
+  const auto explained = run({"explain", "ball.ray", "--pixel", "0,0", "--sample", "all"});
+  EXPECT_EQ(explained.code, 2);
+  EXPECT_TRUE(contains(explained.err, "--sample 0 is the first"));
+}
+
+TEST(KindDefaults, MessagesSayWhatANewcomerCanDo) {
+  const std::string field = errorOf("Trace 1\nsphere { material = { roughness = 0.2 } }");
+  EXPECT_TRUE(contains(field, "material has no field \"roughness\"")) << field;
+  EXPECT_TRUE(contains(field, "material = { model = ")) << field;
+  EXPECT_FALSE(contains(field, "Phong")) << field;
+  EXPECT_TRUE(contains(errorOf("Trace 1\nlet a = 1\nif (a = 1) { sphere { } }"), "== compares two values"));
+  EXPECT_TRUE(contains(errorOf("Trace 1\nif (1 = 1) { sphere { } }"), "== compares two values"));
+  const auto warning = [](const std::string& text) {
+    Messages messages;
+    read("Trace 1\nsphere { }\n" + text, messages);
+    return messages.all().empty() ? std::string() : toString(messages.all().front());
+  };
+  for (const char* text :
+       {"point_light { position = (0, 5, 0); color = (255, 0, 0) }", "background { color = (255, 0, 0) }",
+        "sphere { material = { diffuse = (255, 0, 0) } }"})
+    EXPECT_TRUE(contains(warning(text), "#ff0000, or srgb(255/255, 0/255, 0/255)")) << text << warning(text);
+  EXPECT_EQ(warning("point_light { position = (0, 5, 0); color = (200, 200, 200) }"), "") << "a strong light";
+  EXPECT_EQ(warning("point_light { position = (0, 5, 0); color = (20, 18, 15) }"), "");
+  EXPECT_EQ(warning("background { color = (1, 0, 0) }"), "");
 }
 
 TEST(KindDefaults, LeaveLightThatIsThereAlone) {

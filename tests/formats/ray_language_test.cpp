@@ -297,12 +297,30 @@ TEST(RayLanguage, ErrorsNameThePlaceAndWhatLedThere) {
                                                                                       << found;
   }
   EXPECT_EQ(errorsOf("define g(r) { for i in 1..2 { sphere { nonsense } } }\ng(7)"),
-            "2:40: sphere: expected a field, as in name = value, found \"nonsense\" [in i = 1 at "
-            "test.ray:2:15, in g(r = "
-            "7) at test.ray:3:1]\n"
-            "2:40: sphere: expected a field, as in name = value, found \"nonsense\" [in i = 2 at "
+            "2:40: sphere: expected a field, as in name = value, found \"nonsense\" (2 times) [in i = 1 at "
             "test.ray:2:15, in g(r = "
             "7) at test.ray:3:1]");
+}
+
+TEST(RayLanguage, AnErrorInALoopIsOneWithItsNumber) {
+  EXPECT_EQ(
+      errorsOfFile("Trace 1\nfor i in 1..50 { sphere { radus = i } box { sise = i } }"),
+      "2:27: sphere has no field \"radus\" (50 times) [it has material, name, lit_by, not_lit_by; in i = 1 "
+      "at "
+      "test.ray:2:1]\n"
+      "2:45: box has no field \"sise\" (50 times) [it has material, name, lit_by, not_lit_by; in i = 1 at "
+      "test.ray:2:1]");
+}
+
+TEST(RayLanguage, ALoopWithoutTurnsIsReported) {
+  const std::string hint = " [a range ascends, as in 1..5]";
+  EXPECT_EQ(warningsOf("sphere { }\nfor i in 5..1 { box { } }"),
+            "3:10: this loop makes no turn: 5..1 is empty" + hint);
+  EXPECT_EQ(warningsOf("sphere { }\nlet n = 0\nfor i in 0..n - 1 { box { } }"),
+            "4:10: this loop makes no turn: 0..n - 1 is empty" + hint);
+  EXPECT_EQ(warningsOf("sphere { }\nfor i in 0..2 { for j in 1..i { box { } } }"), "") << "it does in some";
+  EXPECT_EQ(warningsOf("sphere { }\nif (1 > 2) { for i in 5..1 { box { } } }"), "") << "never reached";
+  EXPECT_EQ(warningsOf("sphere { }\nfor i in 1..time { box { } }"), "") << "it may at another time";
 }
 
 TEST(RayLanguage, BombsEnd) {

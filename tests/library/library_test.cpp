@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 #include <string>
 
@@ -286,6 +288,144 @@ TEST(Library, OptionsOfTheSceneHoldForItsRenders) {
   EXPECT_EQ(scene.chosen("width", {{"width", 12}}), "12");
   EXPECT_THROW(scene.choose("width", -1), Error);
   EXPECT_EQ(scene.chosen("width"), "10");
+}
+
+TEST(Library, AWarningGoesWhenItsFieldIsMended) {
+  const auto texts = [](const Scene& scene) {
+    std::string text;
+    for (const Problem& problem : scene.warnings()) text += problem.what + "\n";
+    return text;
+  };
+  Scene scene;
+  scene.add(Node("plane"));
+  Part ball = scene.add(Node(
+      "sphere", {{"material", Node("phong", {{"diffuse", {0.5, 7, 0}}, {"index", -2}, {"shininess", 9}})}}));
+  Part key = scene.add(Node(
+      "spot_light", {{"position", {0, 5, 0}}, {"direction", {0, -1, 0}}, {"angle", 20}, {"full_angle", 50}}));
+  EXPECT_TRUE(holds(texts(scene), "diffuse of material")) << texts(scene);
+  EXPECT_TRUE(holds(texts(scene), "index of material"));
+  EXPECT_TRUE(holds(texts(scene), "full_angle"));
+  const Scene before = scene;
+  ball.material().set("diffuse", {0.5, 0.7, 0});
+  EXPECT_FALSE(holds(texts(scene), "diffuse")) << texts(scene);
+  EXPECT_TRUE(holds(texts(scene), "index of material")) << "which stays wrong";
+  EXPECT_TRUE(holds(texts(before), "diffuse")) << "a copy keeps its own";
+  ball.material().set("index", -3);
+  EXPECT_TRUE(holds(texts(scene), "found -3"));
+  EXPECT_FALSE(holds(texts(scene), "found -2")) << texts(scene);
+  ball.material().set({{"index", 1.5}, {"shininess", -1}});
+  EXPECT_FALSE(holds(texts(scene), "index"));
+  EXPECT_TRUE(holds(texts(scene), "shininess"));
+  ball.set("material", "gold");
+  EXPECT_FALSE(holds(texts(scene), "shininess")) << texts(scene);
+  key.set("full_angle", 10);
+  EXPECT_EQ(texts(scene), "");
+  scene.add(Node("sphere", {{"material", Node("phong", {{"index", -2}})}})).remove();
+  EXPECT_EQ(texts(scene), "");
+
+  Scene read = Scene::fromText("Trace 1\nsphere { name = a; material = { index = -1 } }\nbox { }\n");
+  EXPECT_TRUE(holds(texts(read), "index of material"));
+  read.object("a").material().set("diffuse", {0.5, 0.5, 0.5});
+  EXPECT_TRUE(holds(texts(read), "index of material")) << "of another field";
+  read.object("a").material().set("index", 1.5);
+  EXPECT_EQ(texts(read), "");
+  read.object("a").material().set("index", -4);
+  EXPECT_TRUE(holds(texts(read), "found -4")) << texts(read);
+}
+
+TEST(Library, AMissingTextureIsReportedUntilItIsThere) {
+  const trace::test::Folder folder;
+  Scene scene;
+  scene.add(Node("plane",
+                 {{"translate", {0, -1, 0}},
+                  {"material", Node("lambert", {{"diffuse", Node("map", {{"", folder / "dots.png"}})}})}}));
+  const auto warned = [](const std::vector<Problem>& problems) {
+    return std::any_of(problems.begin(), problems.end(),
+                       [](const Problem& problem) { return holds(problem.what, "dots.png"); });
+  };
+  const Options quick{{"width", 16}, {"quality", "none"}, {"integrator", "whitted"}};
+  EXPECT_TRUE(warned(scene.warnings()));
+  const Render missing = scene.render(quick);
+  EXPECT_TRUE(warned(missing.warnings()));
+  Image{.width = 1, .height = 1, .values = {1, 1, 1}}.write(folder / "dots.png");
+  EXPECT_FALSE(warned(scene.warnings()));
+  const Render found = scene.render(quick);
+  EXPECT_FALSE(warned(found.warnings()));
+  EXPECT_NE(found.image().values, missing.image().values) << "it shows the picture that is there now";
+}
+
+TEST(Library, OptionsOfTheProgramCountMoreThanItsQuality) {
+  Scene scene;
+  scene.add(Node("sphere"));
+  EXPECT_EQ(scene.chosen("spp", {{"quality", "draft"}}), "16");
+  scene.choose("spp", 4);
+  EXPECT_EQ(scene.chosen("spp", {{"quality", "draft"}}), "4");
+  EXPECT_EQ(scene.chosen("integrator", {{"quality", "draft"}}), "path");
+  scene.choose("integrator", "whitted");
+  EXPECT_EQ(scene.chosen("integrator", {{"quality", "draft"}}), "whitted");
+  EXPECT_EQ(scene.chosen("spp", {{"quality", "draft"}, {"spp", 2}}), "2");
+  scene.add(Node("settings", {{"depth", 3}}));
+  EXPECT_EQ(scene.chosen("depth", {{"quality", "draft"}}), "3");
+  const Scene read = Scene::fromText("Trace 1\nsettings { spp = 9 }\nsphere { }\n");
+  EXPECT_EQ(read.chosen("spp", {{"quality", "draft"}}), "16") << "as on the command line";
+  scene.choose("width", 100);
+  scene.choose("height", 50);
+  EXPECT_EQ(scene.chosen("height", {{"width", 200}, {"quality", "draft"}}), "100");
+}
+
+TEST(Library, ACameraWithoutAspectRatioHasThatOfThePicture) {
+  Scene scene;
+  scene.add(Node("sphere", {{"material", Node("phong", {{"emissive", {1, 1, 1}}})}}));
+  scene.add(Node("background", {{"color", {0, 0, 0}}}));
+  const auto lit = [](const Image& image, int x, int y, int dx, int dy) {
+    int count = 0;
+    for (; x < image.width && y < image.height; x += dx, y += dy) count += image.pixel(x, y)[0] > 0;
+    return count;
+  };
+  for (const bool hasCamera : {false, true}) {
+    if (hasCamera) scene.add(Node("camera", {{"position", {0, 0, 5}}, {"look_at", {0, 0, 0}}, {"fov", 40}}));
+    Options options{{"quality", "none"}, {"integrator", "whitted"}, {"width", 64}};
+    EXPECT_EQ(scene.render(options).height(), 48);
+    for (const int height : {32, 64, 96}) {
+      Options both = options;
+      both.push_back({"height", height});
+      const Render render = scene.render(both);
+      const Image& image = render.image();
+      const int across = lit(image, 0, height / 2, 1, 0), down = lit(image, 32, 0, 0, 1);
+      EXPECT_GT(across, 10);
+      EXPECT_NEAR(across, down, 2) << "a ball is round, " << height;
+    }
+  }
+  Scene wide;
+  wide.add(Node("sphere"));
+  wide.add(Node("camera", {{"position", {0, 0, 5}}, {"look_at", {0, 0, 0}}, {"horizontal_fov", 60}}));
+  EXPECT_NEAR(wide.camera().get("fov").number(), 46.83, 0.01) << "that of 4 to 3";
+}
+
+TEST(Library, GradesAFolder) {
+  const trace::test::Folder folder;
+  const std::string references = folder / "references", given = folder / "given";
+  for (const std::string& one : {references, given}) std::filesystem::create_directories(one);
+  const Image grey{.width = 2, .height = 1, .values = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5}},
+      light{.width = 2, .height = 1, .values = {0.6f, 0.6f, 0.6f, 0.6f, 0.6f, 0.6f}};
+  for (const char* name : {"a.png", "b.png", "c.png"}) grey.write(references + "/" + name);
+  grey.write(given + "/a.png");
+  light.write(given + "/b.png");
+  const Grades strict = grade(given, references);
+  ASSERT_EQ(strict.pictures.size(), 3u);
+  EXPECT_EQ(strict.passed, 1u);
+  EXPECT_EQ(strict.pictures.front().verdict, "missing") << "the worst is first";
+  EXPECT_EQ(strict.pictures.back().name, "a.png");
+  EXPECT_EQ(strict.pictures.back().verdict, "identical");
+  const Grades loose = grade(given, references, {.limits = {"rmse=50"}, .page = folder / "grades.html"});
+  EXPECT_EQ(loose.passed, 2u);
+  EXPECT_EQ(loose.pictures[1].metrics.front().first, "max");
+  EXPECT_EQ(Image::read(references + "/a.png").width, 2);
+  EXPECT_TRUE(std::filesystem::exists(folder / "grades.html"));
+  EXPECT_EQ(errorOf([&] { grade(given, folder / "nothing"); }).kind(), Error::Kind::file);
+  EXPECT_EQ(errorOf([&] { grade(given, references, {.limits = {"rmsee=5"}}); }).kind(), Error::Kind::usage);
+  struct Own {};
+  EXPECT_THROW(grade(given, references, {}, [](const Progress&) -> bool { throw Own{}; }), Own);
 }
 
 }  // namespace

@@ -210,6 +210,103 @@ def test_diff_takes_arrays_renders_and_files(tmp_path):
     assert tr.diff(tmp_path / "b.exr", render).metrics["max"] < 1e-3
 
 
+def test_an_unknown_field_fails_at_once_and_names_the_fields_there_are():
+    with pytest.raises(TypeError, match='sphere has no field "radius"; scale=2 makes it .*; it has .*scale'):
+        tr.shapes.sphere(radius=2)
+    with pytest.raises(TypeError, match='did you mean "roughness"'):
+        tr.materials.conductor(rougness=0.2)
+    with pytest.raises(TypeError, match="no field"):
+        tr.materials.phong(roughness=0.2)
+    with pytest.raises(TypeError, match="no field"):
+        tr.textures.checker(c=1)
+    with pytest.raises(TypeError, match="no field"):
+        tr.lights.point_light(positon=(1, 2, 3))
+    with pytest.raises(TypeError, match='did you mean "position"'):
+        tr.camera(positions=(1, 2, 3))
+    # What the reader takes besides its lists:
+    tr.lights.point_light(position=(1, 2, 3), colour=(1, 1, 1), power=60)
+    tr.shapes.torus(a=1, b=0.25)
+    tr.camera(horizontal_fov=60)
+    tr.background(color=(0, 0, 1))
+    tr.shapes.polymesh(points=[(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces=[(0, 1, 2)], crease=30)
+
+
+def test_warnings_go_when_a_field_is_mended(tmp_path):
+    scene = tr.Scene()
+    part = scene.add(tr.shapes.sphere(material=tr.materials.phong(diffuse=(0.5, 7, 0), index=-2)))
+    assert ["diffuse" in warning.what for warning in scene.warnings] == [True, False]
+    part.material.diffuse = (0.5, 0.7, 0)
+    assert ["index" in warning.what for warning in scene.warnings] == [True]
+    assert any("index" in warning.what for warning in scene.render(**SMALL).warnings)
+    part.material.index = 1.5
+    assert not scene.warnings and not any("index" in warning.what for warning in scene.render(**SMALL).warnings)
+    part.material.diffuse = tr.textures.picture(tmp_path / "dots.png")
+    assert any("dots.png" in warning.what for warning in scene.warnings)
+    assert any("dots.png" in warning.what for warning in scene.render(**SMALL).warnings)
+    tr.write(tmp_path / "dots.png", np.ones((2, 2, 3)))
+    assert not scene.warnings and not any("dots.png" in warning.what for warning in scene.render(**SMALL).warnings)
+
+
+def test_options_of_the_program_count_more_than_its_quality():
+    scene = ball(spp=4, width=24)
+    assert scene.chosen("spp", quality="draft") == "4"
+    assert scene.chosen("noise_target", quality="draft") == "0"
+    assert scene.chosen("spp", quality="draft", spp=2) == "2"
+
+
+def test_a_picture_has_the_usual_shape_and_a_ball_is_round_in_any():
+    scene = tr.Scene()
+    scene.add(tr.shapes.sphere(material=tr.materials.phong(emissive=(1, 1, 1))),
+              tr.background(color=(0, 0, 0)), tr.camera(position=(0, 0, 5), look_at=(0, 0, 0), fov=40))
+    options = {**SMALL, "width": 64}
+    assert scene.render(**options).image.shape == (48, 64, 3)
+    for height in (32, 64, 96):
+        lit = scene.render(**options, height=height).image[:, :, 0] > 0
+        assert abs(int(lit[height // 2].sum()) - int(lit[:, 32].sum())) <= 2 < lit.sum()
+
+
+def test_grade_compares_folders(tmp_path):
+    grey, light = np.full((4, 4, 3), 0.5), np.full((4, 4, 3), 0.6)
+    for folder, name, image in [("reference", "a.png", grey), ("reference", "b.png", grey),
+                                ("reference", "c.png", grey), ("given", "a.png", grey), ("given", "b.png", light)]:
+        (tmp_path / folder).mkdir(exist_ok=True)
+        tr.write(tmp_path / folder / name, image)
+    given, reference = tmp_path / "given", tmp_path / "reference"
+    grades = tr.grade(given, reference)
+    assert [grade.verdict for grade in grades] == ["missing", "beyond", "identical"]
+    assert (grades.passed, len(grades), grades.stopped) == (1, 3, "")
+    assert grades["b.png"].metrics["max"] == pytest.approx(25, abs=1)
+    assert "1 of 3 within the limits" in repr(grades) and "a.png" in str(grades)
+    with pytest.raises(KeyError):
+        grades["d.png"]
+    loose = tr.grade(given, reference, limits={"max": 30}, page=tmp_path / "page.html")
+    assert loose.passed == 2 and "b.png" in (tmp_path / "page.html").read_text()
+    with pytest.raises(tr.Error, match="rmse"):
+        tr.grade(given, reference, limits=["rmsee=3"])
+    with pytest.raises(ZeroDivisionError):
+        tr.grade(given, reference, lambda done, seconds: 1 / 0)
+
+
+def test_grade_renders_scenes(tmp_path):
+    for folder in ("given", "reference"):
+        (tmp_path / folder).mkdir()
+    ball().save(tmp_path / "given/ball.ray")
+    tr.open(tmp_path / "given/ball.ray").render(**SMALL).write(tmp_path / "reference/ball.png")
+    grades = tr.grade(tmp_path / "given", tmp_path / "reference", render=True, **SMALL)
+    assert [grade.verdict for grade in grades] == ["identical"]
+
+
+def test_the_stub_has_every_public_name():
+    tree = ast.parse((pathlib.Path(tr.__file__).parent / "__init__.pyi").read_text())
+    named = {node.name for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+    assert set(tr.__all__) <= named
+    for name in ("Grade", "Grades", "Difference", "Render", "Part", "Node"):
+        stub = next(node for node in tree.body if isinstance(node, ast.ClassDef) and node.name == name)
+        said = {member.name for member in stub.body if isinstance(member, ast.FunctionDef)}
+        said |= {member.target.id for member in stub.body if isinstance(member, ast.AnnAssign)}
+        assert {member for member in vars(getattr(tr, name)) if not member.startswith("_")} <= said
+
+
 def test_lint_save_and_open(tmp_path):
     scene = ball()
     scene.lights[0].remove()

@@ -27,7 +27,7 @@ struct Body {
 
 inline std::vector<Body> bodies() {
   const auto scaling = [](Real x, Real y, Real z) { return Affine::scaling({x, y, z}); };
-  const Affine aslant = Affine::rotation({1, 2, 0.5}, 0.7);
+  const Affine aslant = Affine::rotation(normalize(Vec3{1, 2, 0.5}), 0.7);
   Cylinder open;
   open.capped = false;
   Cone cone;

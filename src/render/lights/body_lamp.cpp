@@ -79,7 +79,7 @@ std::optional<BodyLamp> BodyLamp::of(const World& world, std::uint32_t object) {
     for (int k = 0; k < body.crossings_; ++k)
       places += body.place(world, sobolPoint(n, 0), sobolPointBeside(n, 0),
                            (k + 0.5) / body.crossings_).has_value();
-  // Of an open shape each line crosses one of the two sides.
+  // A line that crosses an open shape enters one of its two sides.
   body.area_ = kWholeSphere * body.radius_ * body.radius_ * static_cast<Real>(places) / kLines;
   if (!body.closed_) body.area_ /= 2;
   return body.area_ > 0 ? std::optional(body) : std::nullopt;

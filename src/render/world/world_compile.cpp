@@ -11,6 +11,7 @@
 #include "render/world/number_range.h"
 #include "render/world/world.h"
 #include "scene/displacement.h"
+#include "scene/picture_size.h"
 #include "scene/scene_features.h"
 #include "shading/materials/subsurface.h"
 
@@ -214,7 +215,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
 
   world.addLights(scene, settings, messages);
 
-  const Camera& camera = scene.camera;
+  const Camera camera = cameraFor(scene, settings);
   if (!(camera.fov > 0 && camera.fov < 180) || !(camera.aspectratio > 0) || !isFinite(camera.position) ||
       !(length(cross(camera.viewdir, camera.updir)) > 0))
     throw Error(Fault::scene, Place{.file = scene.file},

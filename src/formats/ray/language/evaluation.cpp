@@ -66,7 +66,9 @@ Value Evaluator::eval(std::uint32_t index, const Scoped& scope) {
       return Tree{index, scope};
     }
     case Kind::block: return Tree{index, scope};
-    default: fail(index, "expected a value, found " + describe(at(index)));
+    default:
+      fail(index, "expected a value, found " + describe(at(index)),
+           kind(index) == Kind::entry ? "== compares two values; name = value is a field" : "");
   }
 }
 

@@ -41,6 +41,7 @@ class Evaluator : protected Names {
   std::optional<double> constant(std::string_view name) const;
 
   const bool degrees_;  ///< is that the unit of angles? else radians
+  SceneTime& time_;
 
  private:
   Value listOf(std::uint32_t tuple, const Scoped& scope);
@@ -62,7 +63,6 @@ class Evaluator : protected Names {
   Value operated(Cursor& cursor, std::uint32_t operation, Op op, int level, Value left, const Scoped& scope,
                  bool live);
 
-  SceneTime& time_;
   int evaluations_ = 0;
 };
 

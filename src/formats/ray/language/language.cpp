@@ -33,6 +33,7 @@ class Expander : Evaluator {
     declare(0, *scope);
     items(0, scope, false);
     close(root);
+    remarkOnEmptyLoops();  // before the tree that they stand in goes
     syntax_.replace(std::move(result_));
     syntax_.setFrames(std::move(frames_));
   }
@@ -149,12 +150,24 @@ class Expander : Evaluator {
     const Value all = eval(source, scope);
     if (!all.list()) fail(source, "expected a range such as 0..9 or a list, found " + shown(all));
     const std::uint64_t seed = seedAt(statement, *scope);
+    turns_[statement] += all.list()->size();
     for (std::size_t i = 0; i < all.list()->size(); ++i) {
       const Value& value = (*all.list())[i];
       const auto round = std::make_shared<Scope>(Scope{scope, mixBits(seed ^ i), body});
       round->bindings.push_back({at(name).text(), statement, value});
       const FrameScope frame(*this, statement, std::string(at(name).text()) + " = " + shown(value));
       block(body, round, isList);
+    }
+  }
+  /// Loops that were reached and never made a turn. In an animation others may come later.
+  void remarkOnEmptyLoops() {
+    if (time_.changesScene()) return;
+    for (const auto& [statement, turns] : turns_) {
+      if (turns > 0) continue;
+      const std::uint32_t source = statement + 2;
+      const bool isRange = at(source).source().find("..") != std::string_view::npos;
+      syntax_.remark({node(source).offset, "this loop makes no turn: " + describe(at(source)) + " is empty",
+                      isRange ? "a range ascends, as in 1..5" : ""});
     }
   }
   void branch(std::uint32_t statement, const Scoped& scope, bool isList) {
@@ -331,6 +344,7 @@ class Expander : Evaluator {
   }
 
   std::set<std::string_view> textureWords_;
+  std::map<std::uint32_t, std::size_t> turns_;  ///< turns made by each loop that was reached
   int depth_ = 0;
 };
 

@@ -19,10 +19,12 @@ Background readBackground(Findings& findings, const Item& block) {
       findings.expected(item, Background::kKeyword, "a field, as in color = (0.4, 0.6, 1)");
       continue;
     }
-    if (canonical(item.key()) == "color")
+    if (canonical(item.key()) == "color") {
       read(findings, "color", item.value(), background.colors.emplace_back());
-    else if (!assignField(findings, background, item))
+      warnOfBytes(findings, Background::kKeyword, item);
+    } else if (!assignField(findings, background, item)) {
       findings.unknownField(Background::kKeyword, item, keywords<Background>({"color"}));
+    }
   }
   const std::vector<Real>& limits = background.limits;
   if (!limits.empty() && limits.size() + 1 != background.colors.size())

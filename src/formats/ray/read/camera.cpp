@@ -21,11 +21,13 @@ class CameraReader {
       if (item.keyed()) repeats.note(item);
       field(item);
     }
+    if (!aspect_ && findings_.isOfKind()) camera_.aspectratio = kUsualAspect;
     if (findings_.errors() == before) direct();
     KindGiven& given = findings_.given();
     given.cameraPosition = position_;
     given.cameraDirection = viewdir_ || lookAt_ || turned_;
     given.aspect = aspect_;
+    given.horizontalFov = horizontalFov_ > 0;
     if (lookAt_) given.lookAt = target_;
     if (!(camera_.near < camera_.far))
       findings_.warn(block, "camera: expected near to be less than far, found " + toText(camera_.near) +

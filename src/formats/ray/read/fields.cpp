@@ -1,6 +1,9 @@
 #include "formats/ray/read/fields.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <string>
 
 #include "base/file.h"
@@ -291,14 +294,54 @@ std::string_view canonical(std::string_view word, std::string_view shape) {
   return canonical(word);
 }
 
+namespace {
+
+/// A colour as picture programs give it: three whole numbers from 0 to 255, of which one is above 1.
+std::optional<std::array<Real, 3>> bytesOf(const Item& value) {
+  std::array<Real, 3> c;
+  const auto isByte = [](Real x) { return x >= 0 && x <= 255 && x == std::floor(x); };
+  if (!numbers(value, c.data(), 3) || !std::all_of(c.begin(), c.end(), isByte)) return {};
+  if (*std::max_element(c.begin(), c.end()) <= 1) return {};
+  return c;
+}
+
+/// How the language writes that colour.
+std::string writtenBytes(const std::array<Real, 3>& c) {
+  char hex[32];
+  std::snprintf(hex, sizeof hex, "#%02x%02x%02x", static_cast<unsigned>(c[0]), static_cast<unsigned>(c[1]),
+                static_cast<unsigned>(c[2]));
+  std::string text = std::string(hex) + ", or srgb(";
+  for (const Real x : c) text += (text.back() == '(' ? "" : ", ") + toText(x) + "/255";
+  return text + ")";
+}
+
+}  // namespace
+
+void warnOfBytes(Findings& findings, std::string_view owner, const Item& field) {
+  constexpr Real kBright = 128, kWhite = 255;
+  if (!findings.isOfKind()) return;
+  const auto bytes = bytesOf(field.value());
+  if (!bytes) return;
+  const auto [least, most] = std::minmax_element(bytes->begin(), bytes->end());
+  if (*most < kBright || (*least == *most && *most != kWhite)) return;  // a strong light
+  findings.warn(field,
+                std::string(field.key()) + " of " + std::string(owner) + ": " +
+                    std::string(field.value().source()) + " is " + toText(*most) +
+                    " times as bright as a usual one",
+                "that colour of a picture program is " + writtenBytes(*bytes));
+}
+
 void warnOfRange(Findings& findings, std::string_view owner, std::string_view name, double least, double most,
                  double value, const Item& at) {
   const std::string field = std::string(name) + " of " + std::string(owner);
   const std::string range =
       most == kNoLimit ? "at least " + toText(least) : toText(least) + " to " + toText(most);
   const bool ofBytes = value > 1 && value <= 255 && most == 1 && at.keyed() && at.value().is(Kind::tuple);
+  const auto bytes = ofBytes ? bytesOf(at.value()) : std::nullopt;
   findings.warn(at, field + ": expected " + range + ", found " + toText(value),
-                ofBytes ? "a colour goes from 0 to 1; #ff8000 is one as picture programs write it" : "",
+                bytes     ? "a colour goes from 0 to 1; that of a picture program is " + writtenBytes(*bytes)
+                : ofBytes ? "a colour goes from 0 to 1; #ff8000 is one as picture programs write it"
+                          : "",
                 "range: " + field);
 }
 

@@ -176,6 +176,10 @@ bool assignField(Findings& findings, TextureModel& target, const Item& field);
 void warnOfRange(Findings& findings, std::string_view owner, std::string_view name, double least, double most,
                  double value, const Item& at);
 
+/// Warns of a colour without an upper limit that is given as picture programs give one, such as (255, 0, 0),
+/// in files of the kind `Trace 1`.
+void warnOfBytes(Findings& findings, std::string_view owner, const Item& field);
+
 /// Warns if a number of the value is outside the range of the field `f`.
 template <class Field, class Value>
 void checkRange(Findings& findings, std::string_view owner, const Field& f, const Value& value,

@@ -203,6 +203,7 @@ void read(Findings& findings, const Item& call) {
       continue;
     }
     if (!checkRadius(findings, item, light)) checkRange(findings, light, item);
+    if (canonical(item.key()) == "color") warnOfBytes(findings, L::kKeyword, item);
     given.push_back(canonical(item.key()));
   }
   const auto isGiven = [&](std::string_view field) {

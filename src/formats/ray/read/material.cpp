@@ -250,8 +250,10 @@ void Materials::unknownField(const Block& block, const Item& field) {
   const std::string of = "it is one of model = " + list(having, "or");
   if (findings_.isOfKind())
     return findings_.error(
-        field, "a Phong material has no field \"" + std::string(key) + "\": " + of,
-        key == kColor ? "diffuse = (red, green, blue) is its colour" : "say which model, before the field");
+        field, "material has no field \"" + std::string(key) + "\": " + of,
+        key == kColor ? "diffuse = (red, green, blue) is its colour"
+                      : "name the model first, as in material = { model = " + std::string(having.front()) +
+                            "; " + std::string(key) + " = ... }");
   findings_.warn(field, "unknown field \"" + std::string(key) + "\" of material is ignored: " + of,
                  "say which model, before the field");
 }

@@ -95,7 +95,18 @@ static std::string hintWithChain(const Item& at, std::string hint) {
 
 void Findings::error(const Item& at, std::string what, std::string hint) {
   ++errors_;
-  messages_.error(syntax_.place(at.offset()), std::move(what), hintWithChain(at, std::move(hint)));
+  for (Failure& failure : failures_)
+    if (failure.offset == at.offset() && failure.what == what) return void(++failure.times);
+  failures_.push_back({at.offset(), std::move(what), hintWithChain(at, std::move(hint))});
+  if (failures_.size() == Messages::kMostErrors) reportErrors();
+}
+
+void Findings::reportErrors() {
+  for (Failure& failure : failures_) {
+    if (failure.times > 1) failure.what += " (" + std::to_string(failure.times) + " times)";
+    messages_.error(syntax_.place(failure.offset), std::move(failure.what), std::move(failure.hint));
+  }
+  failures_.clear();
 }
 
 void Findings::expected(const Item& value, std::string_view name, const std::string& what, std::string hint) {
@@ -195,6 +206,7 @@ void Findings::noteShininess(const Item& at, double shininess) {
 }
 
 void Findings::finish() {
+  reportErrors();
   finishDialect();
   for (Warning& warning : warnings_) {
     if (warning.sums)

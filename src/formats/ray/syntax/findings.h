@@ -1,5 +1,5 @@
-// Findings of reading one .ray file, besides the scene: errors, warnings told once per kind with their
-// number, nodes that are kept but not rendered, and signs of the dialect it was written in.
+// Findings of reading one .ray file, besides the scene: errors and warnings, each once with its number, nodes
+// that are kept but not rendered, and signs of the dialect it was written in.
 #pragma once
 
 #include <map>
@@ -27,7 +27,7 @@ class Findings {
   const Syntax& syntax() const { return syntax_; }
   Notes* notes() { return notes_; }
 
-  /// Throws at the twentieth.
+  /// Throws at the twentieth. The same error at the same place, as in a loop, becomes one with its number.
   void error(const Item& at, std::string what, std::string hint = {});
   /// `NAME: expected EXPECTED, found VALUE`.
   void expected(const Item& value, std::string_view name, const std::string& what, std::string hint = {});
@@ -64,7 +64,7 @@ class Findings {
   /// `shininess` of a material with a highlight.
   void noteShininess(const Item& at, double shininess);
 
-  /// Hands over the warnings and what follows from the dialect.
+  /// Hands over the errors, the warnings and what follows from the dialect.
   void finish();
 
  private:
@@ -74,16 +74,23 @@ class Findings {
     std::size_t times = 0;
     bool sums = false;
   };
+  struct Failure {
+    std::size_t offset;
+    std::string what, hint;
+    std::size_t times = 1;
+  };
   /// The warning of that kind if there was one before; it is then counted once more.
   bool again(const std::string& kind);
   void add(const std::string& kind, const Item& at, std::string what, std::string hint);
   void finishDialect();
+  void reportErrors();
 
   const Syntax& syntax_;
   Scene& scene_;
   Messages& messages_;
   Notes* notes_;
   KindGiven given_;
+  std::vector<Failure> failures_;
   std::vector<Warning> warnings_;
   std::map<std::string, std::size_t, std::less<>> kinds_;
 
