@@ -97,6 +97,7 @@ struct Arguments {
   double pixelsPerDegree = usualPixelsPerDegree();
   std::vector<const Metric*> printed;  ///< --print
   bool idiffCodes = false;
+  std::string scene;          ///< diff: --scene; may be empty
   std::string reference;      ///< a folder
   bool renderScenes = false;  ///< --render
   double sceneLimit = 0;      ///< seconds

@@ -62,7 +62,6 @@ constexpr std::array kWordRows{
     Row{"glossy", "blurry rough frosted reflection noise"},
     Row{"models", "shading brdf bsdf material blinn"},
     Row{"textures", "pictures bump pattern"},
-    Row{"flip-normals", "invert inverted reverse orientation sign inside out"},
     Row{"outlines", "cartoon cel toon silhouette edges lines ink"},
     Row{"omit", "hide exclude"},
     Row{"switched-off", "without extension"},

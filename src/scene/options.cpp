@@ -760,13 +760,6 @@ const std::array kOptions{
                               .help = "show textures and bumps, or only the constants that they scale",
                               .source = "docs/textures.md",
                               .repeats = Repeats::world}),
-    row<&Settings::flipNormals>(
-        {.name = "flip-normals",
-         .group = "Tracing",
-         .help = "shade with normals that point inward: what a wrong sign in a program's normals looks like; "
-                 "surfaces that are shaded from both sides do not change",
-         .source = "docs/compare.md",
-         .integrators = lit()}),
     row<&Settings::outlines>({.name = "outlines",
                               .group = "Tracing",
                               .help = "black lines of this width where objects end, and along their edges",

@@ -152,7 +152,6 @@ struct Settings {
   bool glossy = false;
   Models models = Models::asSaid;
   bool textures = true;
-  bool flipNormals = false;
   Real outlines = 0;
   EnumSet<ShapeKind> omit{};
   EnumSet<SceneFeature> switchedOff{};

@@ -370,8 +370,7 @@ struct CurvedBlocks {
 };
 
 /// The candidate with a shift, if it is decisive; else itself.
-ChangeFit shifted(const ChangeFit& candidate, const LoadedPicture& reference,
-                        const LoadedPicture& test) {
+ChangeFit shifted(const ChangeFit& candidate, const LoadedPicture& reference, const LoadedPicture& test) {
   const CurvedPair pair(reference, test, candidate.change);
   const BlockMeans from = blocksOf(pair.reference);
   std::vector<BlockMeans> whole;  // rows, then columns, of shifts from -1 to 1
@@ -409,7 +408,7 @@ ChangeFit shifted(const ChangeFit& candidate, const LoadedPicture& reference,
 /// The shifted candidate with the curve that leaves least. Without the shift, curves that are nearly alike
 /// cannot be told apart.
 ChangeFit withBestCurve(const ChangeFit& shiftedOne, const LoadedPicture& reference,
-                              const LoadedPicture& test) {
+                        const LoadedPicture& test) {
   ChangeFit best = shiftedOne;
   for (const PictureChange& curve : curvesBetween(reference, test)) {
     if (curve.curve == Curve::none) continue;
@@ -473,8 +472,8 @@ std::optional<DifferenceCause> causeOfDifference(const LoadedPicture& reference,
   if (chosen.change.parts() == 0 || !chosen.explains()) return std::nullopt;
 
   const double rmse = rmseAfter(chosen.change, reference, test);
-  const bool sameSize = reference.picture.width == test.picture.width &&
-                        reference.picture.height == test.picture.height;
+  const bool sameSize =
+      reference.picture.width == test.picture.width && reference.picture.height == test.picture.height;
   if (sameSize && !(rmse < rmseAfter({}, reference, test))) return std::nullopt;
   return DifferenceCause{chosen.change, rmse};
 }

@@ -95,7 +95,7 @@ std::optional<DifferenceCause> causeOfDifference(const LoadedPicture& reference,
 std::string causeText(const DifferenceCause& cause, const std::string& reference, const std::string& test,
                       std::string_view unit);
 
-/// What is left of a difference, in words: "nothing else differs beyond rounding".
+/// The rest of a difference in words: "nothing else differs beyond rounding".
 std::string leftText(double rmse, std::string_view unit);
 
 }  // namespace trace

@@ -13,8 +13,8 @@ namespace trace {
 namespace {
 
 constexpr int kMostSamples = 16;
-constexpr double kAgrees = 1, kDiffers = 4;  // in levels of 255
-constexpr std::size_t kMostParts = 5;
+constexpr double kSamePixel = 1, kOtherPixel = 4;  // in levels of 255
+constexpr std::size_t kListedParts = 5;
 
 bool sumsFewTerms(const Settings& settings) {
   return hasTrait(settings, Trait::asksAllLights) && samplesOf(settings) <= kMostSamples &&
@@ -30,8 +30,8 @@ Color quotient(const Color& a, const Color& b) {
 /// A term that the other program may treat differently.
 struct TermCause {
   std::string text;    ///< "lacks the reflection in ball, which brings"
-  std::string family;  ///< that of such terms at other pixels
-  Color change;        ///< of the pixel, by what the other program does
+  std::string family;  ///< names such terms at other pixels, too
+  Color change;        ///< by which the pixel of the other program differs
 };
 
 /// The ray, or one before it, is of that kind.
@@ -46,8 +46,7 @@ class PixelTerms {
  public:
   PixelTerms(const TracedScene& traced, const PixelPlace& pixel) : scene_(traced.scene) {
     for (int k = 0, all = 1; k < all; ++k) {
-      const Explanation e =
-          explain(traced.moments, traced.settings, traced.size, pixel.x, pixel.y, k);
+      const Explanation e = explain(traced.moments, traced.settings, traced.size, pixel.x, pixel.y, k);
       all = static_cast<int>(e.samples.size());
       light = e.pixel;
       addTree(e.tree);
@@ -127,12 +126,13 @@ class PixelTerms {
     const Color taken = weight * term.factor * (Color(1) + term.value * -1);
     if (term.ray < 0 || isBlack(taken) || !isFinite(taken)) return;
     const std::string blocker = blockerOf(rayAt(tree, term.ray));
-    sum(causes, "lacks the shadow of " + blocker + " on " + here + " in the light of " + name + way + ", which takes",
+    sum(causes,
+        "lacks the shadow of " + blocker + " on " + here + " in the light of " + name + way + ", which takes",
         "shadow", taken);
     sum(totals_, "lacks all shadows, which take", "shadow", taken);
   }
 
-  /// What a shadow ray met.
+  /// The name of the object that a shadow ray met.
   std::string blockerOf(const RayNode& shadow) const {
     for (const RayEnd& end : shadow.ends)
       if (const Blocked* blocked = std::get_if<Blocked>(&end)) return objectName(scene_, blocked->object);
@@ -169,7 +169,8 @@ class PixelTerms {
 /// By how many levels the light of a pixel misses that of the picture, which was rounded up or down.
 class PixelError {
  public:
-  PixelError(const Settings& settings, bool levels) : development_(developmentOf(settings)), levels_(levels) {}
+  PixelError(const Settings& settings, bool levels)
+      : development_(developmentOf(settings)), levels_(levels) {}
 
   double operator()(const Color& light, const Color& wanted) const {
     const Color shown = levels_ ? developed(light, development_) : light;
@@ -207,15 +208,16 @@ std::optional<PixelCause> pixelCause(const TracedScene& traced, const LoadedPict
   terms.reserve(pixels.size());
   for (const PixelPlace& pixel : pixels) terms.emplace_back(traced, pixel);
   const auto explains = [&](const TermCause& cause, std::size_t i) {
-    return error(terms[i].light + cause.change, test.picture.at(pixels[i].x, pixels[i].y)) <= kAgrees;
+    return error(terms[i].light + cause.change, test.picture.at(pixels[i].x, pixels[i].y)) <= kSamePixel;
   };
   const auto isWrong = [&](std::size_t i) {
-    return error(terms[i].light, test.picture.at(pixels[i].x, pixels[i].y)) >= kDiffers;
+    return error(terms[i].light, test.picture.at(pixels[i].x, pixels[i].y)) >= kOtherPixel;
   };
 
-  PixelCause result{.pixel = pixels[0]};
+  PixelCause result;
+  result.pixel = pixels[0];
   result.parts = terms[0].parts;
-  result.parts.resize(std::min(result.parts.size(), kMostParts));
+  result.parts.resize(std::min(result.parts.size(), kListedParts));
   for (std::size_t i = 1; i < pixels.size(); ++i) result.others += isWrong(i);
   if (!isWrong(0)) return result;
   const TermCause* best = nullptr;
@@ -223,10 +225,10 @@ std::optional<PixelCause> pixelCause(const TracedScene& traced, const LoadedPict
     if (!explains(cause, 0)) continue;
     int confirmed = 0;
     for (std::size_t i = 1; i < pixels.size(); ++i)
-      confirmed += isWrong(i) && std::any_of(terms[i].causes.begin(), terms[i].causes.end(),
-                                             [&](const TermCause& other) {
-                                               return other.family == cause.family && explains(other, i);
-                                             });
+      confirmed += isWrong(i) &&
+                   std::any_of(terms[i].causes.begin(), terms[i].causes.end(), [&](const TermCause& other) {
+                     return other.family == cause.family && explains(other, i);
+                   });
     if (2 * confirmed < result.others || (best && confirmed <= result.confirmed)) continue;
     best = &cause;
     result.confirmed = confirmed;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "app/compare/difference.h"
-#include "render/samples/integrator.h"
 #include "render/picture/render.h"
+#include "render/samples/integrator.h"
 #include "scene/scene.h"
 
 namespace trace {
@@ -36,14 +36,15 @@ struct PixelCause {
   /// Follows on the name of the picture: "lacks the reflection in ball, which brings 0.31"; "" if no single
   /// term explains its value.
   std::string text;
-  int confirmed = 0, others = 0;  ///< of so many other pixels so many are explained by such a term
-  std::vector<Part> parts;        ///< parts of the scene's pixel, the largest first
+  int confirmed = 0,
+      others = 0;  ///< number of other pixels that such a term explains, and of all whose value is wrong
+  std::vector<Part> parts;  ///< parts of the scene's pixel, the largest first
 };
 
 /// The term that makes of the scene's pixel that of `test`, a picture of its size. pixels[0] is the one to
 /// explain. The others confirm it: a term is named only if such a term explains at least half of those whose
-/// value is wrong. Nothing where the light of a pixel is not the sum of few terms: for integrators with random
-/// paths, more than 16 samples a pixel, or a tone that needs the whole picture.
+/// value is wrong. Nothing where the light of a pixel is not the sum of few terms: for integrators with
+/// random paths, more than 16 samples a pixel, or a tone that needs the whole picture.
 std::optional<PixelCause> pixelCause(const TracedScene& traced, const LoadedPicture& test,
                                      std::span<const PixelPlace> pixels);
 

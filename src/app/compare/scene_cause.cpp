@@ -1,5 +1,5 @@
-// The search for the variant of a scene that makes a picture: see scene_cause.h. Beside the life of a picture;
-// it serves `ray diff` and `ray grade`.
+// The search for the variant of a scene that makes a picture: see scene_cause.h. Next to the life of a
+// picture; it serves `ray diff`.
 //
 // Each variant is traced at few pixels, which lie evenly and symmetrically, so that they form small pictures
 // that can be turned. What needs the whole picture, such as a stretched tone, is rendered whole.
@@ -12,12 +12,13 @@
 #include <memory>
 #include <utility>
 
-#include "app/session/denoising.h"
 #include "app/compare/scene_variants.h"
+#include "app/session/denoising.h"
 #include "app/session/session.h"
 #include "base/budget.h"
 #include "base/parallel.h"
 #include "image/development.h"
+#include "render/integrators/make_integrator.h"
 #include "render/picture/passes.h"
 #include "render/samples/pixel.h"
 
@@ -26,12 +27,12 @@ namespace {
 
 constexpr int kMostAcross = 96, kFewestAcross = 24;  // traced pixels on the longer side
 constexpr double kMostRays = 30000;                  // camera rays of a variant
-constexpr double kHelps = 0.75;                      // the share of the difference that a half of a pair may leave
-constexpr std::size_t kMostParts = 5;                // two variants, and the changes of a picture
-constexpr std::size_t kOtherPixels = 6;              // that confirm what the worst pixel says
+constexpr double kHalfHelps = 0.75;           // the share of the difference that a half of a pair may leave
+constexpr std::size_t kMostVariantParts = 5;  // two variants, and the changes of a picture
+constexpr std::size_t kOtherPixels = 6;       // that confirm what the worst pixel says
 
 /// So many places from 0 to pixels - 1, evenly and symmetrically.
-std::vector<int> evenly(int pixels, int wanted) {
+std::vector<int> evenPlaces(int pixels, int wanted) {
   int count = std::clamp(wanted, 1, pixels);
   if (count % 2 == 1 && pixels % 2 == 0 && count > 1) --count;
   std::vector<int> places(static_cast<std::size_t>(count));
@@ -44,14 +45,15 @@ std::vector<int> evenly(int pixels, int wanted) {
 }
 
 /// The pixels that are traced.
-struct Lattice {
+struct PixelLattice {
   std::vector<int> columns, rows;
 
-  Lattice(const Size& size, int samples) {
+  PixelLattice(const Size& size, int samples) {
     const int longest = std::max(size.width, size.height);
-    const double across = std::clamp(std::sqrt(kMostRays / samples), double{kFewestAcross}, double{kMostAcross});
+    const double across =
+        std::clamp(std::sqrt(kMostRays / samples), double{kFewestAcross}, double{kMostAcross});
     const auto along = [&](int side) {
-      return evenly(side, std::max(kFewestAcross, static_cast<int>(across * side / longest)));
+      return evenPlaces(side, std::max(kFewestAcross, static_cast<int>(across * side / longest)));
     };
     columns = along(size.width);
     rows = along(size.height);
@@ -75,13 +77,13 @@ struct Lattice {
 
 /// A pixel depends on its own samples only, all of which are taken.
 bool isOfPixels(const Settings& s) {
-  return !subdivides(s) && s.noiseTarget == 0 && !hasTrait(s, Trait::splats) && !hasTrait(s, Trait::byChains) &&
-         !hasLightImage(s) && s.tone != Tone::stretch && s.bloom == 0 && !s.denoise && !s.dither &&
-         !isAnaglyph(s.stereo);
+  return !subdivides(s) && s.noiseTarget == 0 && !hasTrait(s, Trait::splats) &&
+         !hasTrait(s, Trait::byChains) && !hasLightImage(s) && s.tone != Tone::stretch && s.bloom == 0 &&
+         !s.denoise && !s.dither && !isAnaglyph(s.stereo);
 }
 
 /// The traced pixels of a variant: as light, and as levels of a screen.
-struct Shot {
+struct VariantShot {
   LoadedPicture light, levels;
 
   const LoadedPicture& as(const LoadedPicture& other) const { return other.levels ? levels : light; }
@@ -92,20 +94,20 @@ LoadedPicture levelsOf(const Picture& light, const Settings& settings) {
 }
 
 /// A scene with variants, and what it shows.
-struct Tried {
+struct TriedVariants {
   std::vector<std::string> names;
-  Shot shot;
+  VariantShot shot;
 };
 
 /// A scene to which variants are added.
-struct Start {
+struct SceneStart {
   Scene scene;
   Settings settings;
-  Tried tried;
+  TriedVariants tried;
 };
 
-struct Found {
-  const Tried* tried = nullptr;
+struct VariantFit {
+  const TriedVariants* tried = nullptr;
   ChangeFit fit;
   std::size_t parts = 0;
 
@@ -114,9 +116,9 @@ struct Found {
   }
 };
 
-class Search {
+class VariantSearch {
  public:
-  Search(const SceneQuestion& question, const LoadedPicture& reference, const LoadedPicture& test)
+  VariantSearch(const SceneQuestion& question, const LoadedPicture& reference, const LoadedPicture& test)
       : limit_(budgetOfThread.budget), reference_(reference), test_(test) {
     limit_.limitTime(question.seconds);
     Budget own(&limit_);  // the session sets it to the scene's own time limit
@@ -145,30 +147,32 @@ class Search {
 
   std::optional<SceneCauses> run(const PixelPlace& worst) {
     lattice_.emplace(session_.size(), samplesOf(session_.settings()));
-    const bool exchanged = test_.picture.width != reference_.picture.width ||
-                           test_.picture.height != reference_.picture.height;
+    const bool exchanged =
+        test_.picture.width != reference_.picture.width || test_.picture.height != reference_.picture.height;
     sampledReference_ = {lattice_->of(reference_.picture), reference_.levels};
     sampledTest_ = {lattice_->of(test_.picture, exchanged), test_.levels};
     if (!areComparable(sampledReference_, sampledTest_)) return {};
     result_.pixels = sampledReference_.picture.pixels.size();
-    Start start{session_.scene(), session_.settings(), {}};
+    SceneStart start{session_.scene(), session_.settings(), {}};
     start.tried.shot = shot(start.scene, start.settings);
     tried_.push_back(start.tried);
-    Found ofTest;
+    VariantFit ofTest;
     try {
       addVariants(start);
-      const Found ofReference = best(sampledReference_, {});
+      const VariantFit ofReference = best(sampledReference_, {});
       if (ofReference.explains()) result_.reference = matchOf(ofReference, sampledReference_);
       ofTest = best(sampledTest_, {});
       const bool isPlain = ofTest.explains() && ofTest.parts == 0;
-      if (ofReference.explains() && ofReference.fit.change.parts() == 0 && ofReference.parts > 0 && !isPlain) {
+      if (ofReference.explains() && ofReference.fit.change.parts() == 0 && ofReference.parts > 0 &&
+          !isPlain) {
         start = startOf(*ofReference.tried);
         addVariants(start);
-        if (const Found other = best(sampledTest_, start.tried.names); other.explains() || !ofTest.explains())
+        if (const VariantFit other = best(sampledTest_, start.tried.names);
+            other.explains() || !ofTest.explains())
           ofTest = other;
       }
       if (!ofTest.explains())
-        if (const Tried* half = helpful(start)) {
+        if (const TriedVariants* half = helpful(start)) {
           addVariants(startOf(*half));
           ofTest = best(sampledTest_, start.tried.names);
         }
@@ -182,7 +186,7 @@ class Search {
     if (!exchanged) result_.rmse = rmseAfter({}, start.tried.shot.as(test_), sampledTest_);
     if (ofTest.explains())
       result_.test = matchOf(ofTest, sampledTest_);
-    else if (const Tried* nearest = helpful(start))
+    else if (const TriedVariants* nearest = helpful(start))
       result_.nearest = SceneMatch{nearest->names, {}, rmseAfter({}, nearest->shot.as(test_), sampledTest_)};
     const bool isTurned = exchanged || (ofTest.explains() && ofTest.fit.change.parts() > 0);
     if (!isTurned && !(ofTest.explains() && ofTest.parts == 0) && result_.stopped.empty())
@@ -203,8 +207,8 @@ class Search {
     return use(std::array{Moment{&world, integrator.get()}});
   }
 
-  Shot shot(const Scene& scene, const Settings& settings) const {
-    return withMoments(scene, settings, [&](const auto& moments) -> Shot {
+  VariantShot shot(const Scene& scene, const Settings& settings) const {
+    return withMoments(scene, settings, [&](const auto& moments) -> VariantShot {
       if (isOfPixels(settings)) {
         Picture light = tracedPixels(moments, settings);
         LoadedPicture levels = levelsOf(light, settings);
@@ -240,7 +244,7 @@ class Search {
 
   /// Traces the start with each of its variants. One that changes nothing that is seen is none; one that
   /// cannot be built neither.
-  void addVariants(const Start& start) {
+  void addVariants(const SceneStart& start) {
     const std::vector<SceneVariant> variants = variantsOf(start.scene, start.settings);
     result_.variants += variants.size();
     Work work("trying variants of the scene", static_cast<std::int64_t>(variants.size()));
@@ -250,7 +254,7 @@ class Search {
       Settings settings = start.settings;
       variants[i].apply(scene, settings);
       try {
-        Tried tried{start.tried.names, shot(scene, settings)};
+        TriedVariants tried{start.tried.names, shot(scene, settings)};
         tried.names.push_back(variants[i].text);
         if (!(tried.shot.light.picture == start.tried.shot.light.picture) ||
             !(tried.shot.levels.picture == start.tried.shot.levels.picture))
@@ -264,8 +268,8 @@ class Search {
   }
 
   /// The scene with those variants.
-  Start startOf(const Tried& tried) const {
-    Start start{session_.scene(), session_.settings(), tried};
+  SceneStart startOf(const TriedVariants& tried) const {
+    SceneStart start{session_.scene(), session_.settings(), tried};
     for (const std::string& name : tried.names)
       for (const SceneVariant& variant : variantsOf(start.scene, start.settings))
         if (variant.text == name) {
@@ -275,34 +279,36 @@ class Search {
     return start;
   }
 
-  static bool startsWith(const Tried& tried, const std::vector<std::string>& names) {
+  static bool startsWith(const TriedVariants& tried, const std::vector<std::string>& names) {
     return tried.names.size() >= names.size() && std::equal(names.begin(), names.end(), tried.names.begin());
   }
 
-  /// Of all that was traced upon those variants: the one with the fewest parts that is decisive.
-  Found best(const LoadedPicture& picture, const std::vector<std::string>& upon) const {
-    std::array<Found, kMostParts + 1> found;
-    for (const Tried& tried : tried_) {
+  /// The decisive match with the fewest parts, among all that was traced upon those variants.
+  VariantFit best(const LoadedPicture& picture, const std::vector<std::string>& upon) const {
+    std::array<VariantFit, kMostVariantParts + 1> found;
+    for (const TriedVariants& tried : tried_) {
       if (!startsWith(tried, upon)) continue;
       for (const ChangeFit& fit : bestChanges(tried.shot.as(picture), picture)) {
         const std::size_t parts =
             tried.names.size() - upon.size() + static_cast<std::size_t>(fit.change.parts());
-        if (parts <= kMostParts && fit.left < found[parts].fit.left - 1e-9 * fit.contrast)
+        if (parts <= kMostVariantParts && fit.left < found[parts].fit.left - 1e-9 * fit.contrast)
           found[parts] = {&tried, fit, parts};
       }
     }
-    Found chosen = found[0];
-    for (const Found& other : found)
+    VariantFit chosen = found[0];
+    for (const VariantFit& other : found)
       if (other.tried && other.fit.replaces(chosen.fit)) chosen = other;
     return chosen;
   }
 
   /// The variant upon the start that leaves least of the test, if it leaves clearly less; null if none does.
-  const Tried* helpful(const Start& start) const {
-    const auto left = [&](const Tried& tried) { return bestChanges(tried.shot.as(test_), sampledTest_)[0].left; };
-    const Tried* nearest = nullptr;
-    double least = kHelps * left(start.tried);
-    for (const Tried& tried : tried_) {
+  const TriedVariants* helpful(const SceneStart& start) const {
+    const auto left = [&](const TriedVariants& tried) {
+      return bestChanges(tried.shot.as(test_), sampledTest_)[0].left;
+    };
+    const TriedVariants* nearest = nullptr;
+    double least = kHalfHelps * left(start.tried);
+    for (const TriedVariants& tried : tried_) {
       if (!startsWith(tried, start.tried.names) || tried.names.size() == start.tried.names.size()) continue;
       if (const double own = left(tried); own < least) {
         least = own;
@@ -312,12 +318,12 @@ class Search {
     return nearest;
   }
 
-  static SceneMatch matchOf(const Found& found, const LoadedPicture& picture) {
+  static SceneMatch matchOf(const VariantFit& found, const LoadedPicture& picture) {
     return {found.tried->names, found.fit.change,
             rmseAfter(found.fit.change, found.tried->shot.as(picture), picture)};
   }
 
-  void explainPixel(const Start& start, const PixelPlace& worst) {
+  void explainPixel(const SceneStart& start, const PixelPlace& worst) {
     try {
       result_.pixel = withMoments(start.scene, start.settings, [&](const auto& moments) {
         return pixelCause({start.scene, start.settings, moments, session_.size()}, test_,
@@ -330,7 +336,7 @@ class Search {
   }
 
   /// The pixel, and some of those that differ at least half as much as any, from all parts of the picture.
-  std::vector<PixelPlace> differing(const Shot& shot, const PixelPlace& worst) const {
+  std::vector<PixelPlace> differing(const VariantShot& shot, const PixelPlace& worst) const {
     const Picture &a = shot.as(test_).picture, &b = sampledTest_.picture;
     const auto difference = [&](int x, int y) {
       const Color d = a.at(x, y) + b.at(x, y) * -1;
@@ -353,9 +359,9 @@ class Search {
   mutable Budget limit_;
   const LoadedPicture &reference_, &test_;
   Session session_;
-  std::optional<Lattice> lattice_;
+  std::optional<PixelLattice> lattice_;
   LoadedPicture sampledReference_, sampledTest_;
-  std::deque<Tried> tried_;  // whose elements stay where they are
+  std::deque<TriedVariants> tried_;  // whose elements stay where they are
   SceneCauses result_;
 };
 
@@ -364,7 +370,7 @@ class Search {
 std::optional<SceneCauses> sceneCauses(const SceneQuestion& question, const LoadedPicture& reference,
                                        const LoadedPicture& test, const PixelPlace& worst) {
   if (!areComparable(reference, test)) return {};
-  return Search(question, reference, test).run(worst);
+  return VariantSearch(question, reference, test).run(worst);
 }
 
 }  // namespace trace

@@ -1,6 +1,6 @@
 // The variant of a scene that explains why a picture of it differs from the reference: no shadows, another
-// convention, one bounce less. What `ray diff --scene` and `ray grade --scene` add to the cause of the whole
-// picture (app/compare/diff_cause.h).
+// convention, one bounce less. What `ray diff --scene` adds to the cause of the whole picture
+// (app/compare/diff_cause.h).
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ struct SceneQuestion {
 /// How a picture comes out of a scene.
 struct SceneMatch {
   std::vector<std::string> variants;  ///< variants of variantsOf(), each upon those before; none: as it is
-  PictureChange change;               ///< of the picture, after that
+  PictureChange change;               ///< the change of the picture, after that
   /// The difference that is left, beyond that of rounding to levels, in the unit of the picture.
   double rmse = 0;
 
@@ -40,21 +40,21 @@ struct SceneCauses {
   std::size_t tried = 0, variants = 0;  ///< variants that were rendered, of all
   std::string stopped;                  ///< why it was not all of them; "" if it was
   std::string unit;                     ///< "levels" or "values"
-  /// What makes each of the two pictures; nothing if no variant does.
+  /// The variants that make each of the two pictures; nothing if none does.
   std::optional<SceneMatch> reference, test;
   std::optional<SceneMatch> nearest;  ///< the variant that leaves least of the test, if nothing makes it
   double rmse = 0;                    ///< the difference of the test and the scene as it makes the reference
-  std::optional<PixelCause> pixel;    ///< of the pixel that differs most
-  std::vector<Message> warnings;      ///< of the scene
+  std::optional<PixelCause> pixel;    ///< explains the pixel that differs most
+  std::vector<Message> warnings;      ///< warnings about the scene
   InputFiles inputs;                  ///< files that the scene was read from
 };
 
-/// Renders the scene in the size of the reference, with the variants of app/compare/scene_variants.h one by one, and
-/// two at a time where one helps but does not suffice, and compares each with the pictures by the rule of
-/// causeOfDifference(). Variants that make the reference hold for the test too. `worst` is the pixel to
-/// explain. If the time of the thread's budget or of the question is over, what was found by then is
-/// returned. Nothing if the pictures cannot be compared, or are too small. Throws Error if the scene cannot be
-/// read or built.
+/// Renders the scene in the size of the reference, with the variants of app/compare/scene_variants.h one by
+/// one, and two at a time where one helps but does not suffice, and compares each with the pictures by the
+/// rule of causeOfDifference(). Variants that make the reference hold for the test too. `worst` is the pixel
+/// to explain. If the time of the thread's budget or of the question is over, what was found by then is
+/// returned. Nothing if the pictures cannot be compared, or are too small. Throws Error if the scene cannot
+/// be read or built.
 std::optional<SceneCauses> sceneCauses(const SceneQuestion& question, const LoadedPicture& reference,
                                        const LoadedPicture& test, const PixelPlace& worst);
 
@@ -62,10 +62,5 @@ std::optional<SceneCauses> sceneCauses(const SceneQuestion& question, const Load
 /// is, how far the search came, and what the worst pixel lacks.
 std::vector<std::string> sceneSentences(const SceneCauses& causes, const std::string& reference,
                                         const std::string& test);
-
-/// The same in one line for `ray grade`, of the scene in the folder that has the name of the picture: "" if
-/// there is none. What is wrong with the scene is said, too. `alone`: no other pair is compared at this time.
-std::string sceneCauseLine(const std::string& folder, const std::string& picture, SceneQuestion question,
-                           const PictureDifference& d, bool alone);
 
 }  // namespace trace

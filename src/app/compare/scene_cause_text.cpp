@@ -1,12 +1,8 @@
-// What the variants of a scene explain, in words: see scene_cause.h.
+// The causes that variants of a scene show, in words: see scene_cause.h.
 #include <cstdio>
-#include <filesystem>
 
 #include "app/compare/scene_cause.h"
-#include "base/budget.h"
 #include "base/printable.h"
-#include "base/text.h"
-#include "formats/format.h"
 
 namespace trace {
 namespace {
@@ -23,7 +19,7 @@ std::string givenText(const SceneCauses& causes, const SceneMatch& match) {
   return "what " + printable(causes.file) + " gives" + (how.empty() ? "" : " " + printable(how));
 }
 
-std::string placeText(const PixelPlace& pixel) {
+std::string atText(const PixelPlace& pixel) {
   return "at " + std::to_string(pixel.x) + "," + std::to_string(pixel.y);
 }
 
@@ -44,7 +40,7 @@ std::string testText(const SceneCauses& causes, const std::string& test) {
 }
 
 std::string pixelText(const PixelCause& cause, const std::string& test) {
-  const std::string place = placeText(cause.pixel);
+  const std::string place = atText(cause.pixel);
   if (!cause.text.empty())
     return place + " " + test + " " + printable(cause.text) +
            (cause.confirmed > 0 ? "; so it is at " + std::to_string(cause.confirmed) + " of " +
@@ -81,31 +77,6 @@ std::vector<std::string> sceneSentences(const SceneCauses& causes, const std::st
                   " variants: " + causes.stopped);
   if (causes.pixel) all.push_back(pixelText(*causes.pixel, test));
   return all;
-}
-
-std::string sceneCauseLine(const std::string& folder, const std::string& picture, SceneQuestion question,
-                           const PictureDifference& d, bool alone) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  for (const SceneFormat& format : sceneFormats())
-    for (const std::string_view suffix : format.suffixes) {
-      const fs::path file = (fs::path(folder) / picture).replace_extension(suffix);
-      if (question.file.empty() && fs::is_regular_file(file, error)) question.file = file.string();
-    }
-  if (question.file.empty() || !d.numbers.sameSize) return "";
-  if (!alone) question.choices.push_back({"threads", "1", {}});
-  try {
-    const auto causes =
-        sceneCauses(question, d.reference, d.test, {d.numbers.worstX, d.numbers.worstY});
-    std::string line;
-    if (causes)
-      for (const std::string& sentence : sceneSentences(*causes, "the reference", "the picture"))
-        line += (line.empty() ? "" : "; ") + sentence;
-    return line;
-  } catch (const Error& failed) {
-    lookAtBudget();  // if the time of all is over, this scene is not at fault
-    return "its scene says nothing: " + failed.messages().front().what;
-  }
 }
 
 }  // namespace trace

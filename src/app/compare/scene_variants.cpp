@@ -51,21 +51,30 @@ void changeLights(Scene& scene, const auto& change) {
   for (LightSource& source : scene.lights) match(source.light, [&](auto& light) { change(light); });
 }
 
-/// Meshes without the normals of their points, each data once.
-void dropVertexNormals(Scene& scene) {
-  std::map<const MeshData*, std::shared_ptr<const MeshData>> flat;
+/// change(data) of all meshes, each data once.
+void changeMeshes(Scene& scene, const std::function<void(MeshData&)>& change) {
+  std::map<const MeshData*, std::shared_ptr<const MeshData>> changed;
   for (Object& object : scene.objects) {
     const Mesh* mesh = object.shape.as<Mesh>();
-    if (!mesh || (mesh->data->normals.empty() && !mesh->data->generateNormals)) continue;
-    std::shared_ptr<const MeshData>& made = flat[mesh->data.get()];
+    if (!mesh) continue;
+    std::shared_ptr<const MeshData>& made = changed[mesh->data.get()];
     if (!made) {
       MeshData data = *mesh->data;
-      data.normals.clear();
-      data.generateNormals = false;
+      change(data);
       made = std::make_shared<const MeshData>(std::move(data));
     }
     object.shape = Mesh{made};
   }
+}
+
+void dropVertexNormals(MeshData& mesh) {
+  mesh.normals.clear();
+  mesh.generateNormals = false;
+}
+
+void invertNormals(MeshData& mesh) {
+  for (Vec3f& normal : mesh.normals) normal = {-normal.x, -normal.y, -normal.z};
+  for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
 }
 
 /// Mirrors the textures that lie in u and v.
@@ -103,7 +112,8 @@ class Variants {
     Scene edited = scene_;
     apply(edited);
     if (!(edited == scene_))
-      all_.push_back({std::move(text), [apply = std::move(apply)](Scene& scene, Settings&) { apply(scene); }});
+      all_.push_back(
+          {std::move(text), [apply = std::move(apply)](Scene& scene, Settings&) { apply(scene); }});
   }
   void set(std::string text, std::function<void(Settings&)> apply) {
     Settings changed = settings_;
@@ -173,14 +183,15 @@ class Variants {
           light.direction = -light.direction;
       });
     });
-    edit("with flat triangles, without the normals of their corners", dropVertexNormals);
+    edit("with flat triangles, without the normals of their corners",
+         [](Scene& scene) { changeMeshes(scene, dropVertexNormals); });
+    edit("with the normals of meshes inverted", [](Scene& scene) { changeMeshes(scene, invertNormals); });
     edit("with textures upside down", [](Scene& scene) { mirrorTextures(scene, &Vec3::y); });
     edit("with textures mirrored left to right", [](Scene& scene) { mirrorTextures(scene, &Vec3::x); });
     edit("with a black background", [](Scene& scene) { scene.background = {}; });
   }
 
   void tracing() {
-    option("flip-normals", "on");
     if (settings_.depth > 0) option("depth", std::to_string(settings_.depth - 1));
     if (settings_.depth < 1000) option("depth", std::to_string(settings_.depth + 1));
     option("depth", "0");
@@ -212,8 +223,7 @@ class Variants {
   void camera() {
     option("projection", "orthographic");
     const auto fov = [&](const std::string& text, Real degrees) {
-      if (degrees > 0 && degrees < 180)
-        edit(text, [degrees](Scene& scene) { scene.camera.fov = degrees; });
+      if (degrees > 0 && degrees < 180) edit(text, [degrees](Scene& scene) { scene.camera.fov = degrees; });
     };
     const Camera& camera = scene_.camera;
     fov("with the vertical field of view taken as the horizontal one",

@@ -24,11 +24,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kBegin = "Trace checkpoint 1\n", kProgram = "Program: ";
+constexpr std::string_view kBegin = "Trace checkpoint 1\n", kProgramLine = "Program: ";
 
 /// The settings that decide about the film: all options but those that are applied to it later.
 std::string identityOf(const Metadata& metadata, const Settings& settings, const std::string& program) {
-  std::string text = std::string(kProgram) + program + "\n";
+  std::string text = std::string(kProgramLine) + program + "\n";
   for (const auto& [key, value] : metadata)
     if (key == "Software" || key == "Scene") text += key + ": " + value + "\n";
   text += "Settings:";
@@ -125,8 +125,8 @@ Difference differenceOf(const std::string& a, const std::string& b) {
   constexpr std::size_t kFar = 1000;
   if (one["Software"] != other["Software"]) return {"another version of Trace wrote it", kFar + 2};
   if (const std::string its = one["Program"], ours = other["Program"]; its != ours)
-    return {"another build of Trace wrote it (" + its.substr(std::min(its.size(), kProgram.size())) +
-                "; this one is " + ours.substr(std::min(ours.size(), kProgram.size())) + ")",
+    return {"another build of Trace wrote it (" + its.substr(std::min(its.size(), kProgramLine.size())) +
+                "; this one is " + ours.substr(std::min(ours.size(), kProgramLine.size())) + ")",
             kFar + 1};
   if (one["Scene"] != other["Scene"]) return {"the scene has changed", kFar};
   std::set<std::string> names;

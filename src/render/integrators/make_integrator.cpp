@@ -58,7 +58,6 @@ void refuseForVeach(const World& world, const Settings& settings) {
   if (world.hasHoles()) refuse("surfaces that are there in part (opacity)");
   if (settings.wavelengths > 1) refuse("light that glass splits (--wavelengths)");
   if (settings.outlines > 0) refuse("--outlines");
-  if (settings.flipNormals) refuse("--flip-normals");
   if (settings.smoothTerminator) refuse("--smooth-terminator");
   if (settings.stereo != Stereo::off) refuse("pictures of two eyes (--stereo)");
   if (settings.backFaces != BackFaces::both) refuse("--back-faces other than both");

@@ -18,22 +18,21 @@ Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, cons
       hit(hit_),
       inside(inside_),
       bsdf_(tracer.world().shade(hit, footprint)),
-      material(whitted(*bsdf_)),
-      leaving_(hit_.leaving != (tracer_.settings().flipNormals && !hit_.twoSided)) {
+      material(whitted(*bsdf_)) {
   const World& world = tracer.world();
   const Settings& settings = tracer.settings();
   // The inside of glass is shaded with its normal turned to the eye, and so is the back of what is shaded
   // from both sides; other opaque things are lit from outside only.
   transmits = material.transmits();
   const Vec3& shading = hit.surface.shading;
-  const bool turned = hit.twoSided ? hit.isBehind(ray.direction) : leaving_ && transmits;
-  normal = turned != (leaving_ != hit.leaving) ? -shading : shading;
+  const bool turned = hit.twoSided ? hit.isBehind(ray.direction) : hit.leaving && transmits;
+  normal = turned ? -shading : shading;
   frame = world.frame(hit, *bsdf_, normal);
   cosine = -dot(ray.direction, normal);
   straight = material.passage == Passage::straight;
   if (transmits || settings.varnish || tracer.records()) {
     boundary_.emplace(Boundary{tracer.filling(hit, material), {}});
-    boundary_->sides = inside.at(leaving_, boundary_->body, hit.solid);
+    boundary_->sides = inside.at(hit.leaving, boundary_->body, hit.solid);
     indices = Indices(boundary_->sides, inside.wavelength, inside.nested());
   }
   const bool coated = settings.varnish && !transmits && material.index != 1 && cosine > 0;
@@ -286,7 +285,7 @@ std::optional<Vec3> Interaction::through(const SpectralShare& share) const {
 
 Interfaces Interaction::behind() const {
   Interfaces there = inside;
-  if (boundary_ && !straight) there.pass(leaving_, boundary_->body, hit.solid);
+  if (boundary_ && !straight) there.pass(hit.leaving, boundary_->body, hit.solid);
   return there;
 }
 

@@ -125,7 +125,6 @@ class Interaction {
   Real mirroredShare(const SpectralShare& share) const;
   [[gnu::noinline]] void raise(bool turned);
 
-  const bool leaving_;  ///< Hit::leaving by the normal of Settings::flipNormals
   /// The medium inside the object, and both sides of its surface.
   struct Boundary {
     Filling body;
