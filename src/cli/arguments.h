@@ -101,6 +101,7 @@ struct Arguments {
   double pixelsPerDegree = usualPixelsPerDegree();
   std::vector<const Metric*> printed;  ///< --print
   bool idiffCodes = false;
+  std::string scene;          ///< diff: --scene; may be empty
   std::string reference;      ///< a folder
   bool renderScenes = false;  ///< --render
   bool ofClass = false;       ///< --class

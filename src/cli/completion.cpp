@@ -55,6 +55,7 @@ Candidates candidatesOf(const Flag& flag) {
   if (flag.takes == Flag::Takes::optional || flag.values.find('|') != std::string_view::npos)
     return {CandidateKind::words, betweenBars(flag.values)};
   if (flag.values == "FILE") return {CandidateKind::files};
+  if (flag.values == "SCENE") return sceneFiles();
   if (flag.values == "DIR" || flag.values == "FOLDER") return {CandidateKind::folders};
   Candidates result{flag.values == "METRIC,METRIC" ? CandidateKind::list : CandidateKind::words};
   if (flag.values == "NAME") {  // the name of an extra

@@ -10,9 +10,7 @@
 // points, mistakes[], cause, problem}}, page, csv (or null).
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <filesystem>
-#include <thread>
 
 #include "app/compare/class_grade.h"
 #include "app/session/json.h"
@@ -20,7 +18,7 @@
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/metric_text.h"
-#include "cli/terminal.h"
+#include "cli/stop_key.h"
 
 namespace trace::cli {
 namespace {
@@ -120,45 +118,6 @@ std::string gradesJson(const Arguments& arguments, const Grades& grades) {
   if (!arguments.output.empty()) json["page"] = arguments.output;
   return json.text(2) + "\n";
 }
-
-/// Ctrl-C makes the time of the command be over, so that what is compared by then is kept.
-class StopKey {
- public:
-  explicit StopKey(const Console& console) : console_(console), budget_(budgetOfThread.budget) {
-    signals_.renderingBegins();
-    Signals::receive(false);
-    thread_ = std::thread([this] { run(); });
-  }
-  ~StopKey() {
-    finished_ = true;
-    signals_.wake();
-    thread_.join();
-    Signals::receive(true);
-  }
-  StopKey(const StopKey&) = delete;
-  StopKey& operator=(const StopKey&) = delete;
-
-  bool pressed() const { return pressed_; }
-
- private:
-  void run() {
-    Signals::receive(true);
-    while (!finished_) {
-      if (signals_.wait(kInterval) != Signals::Event::stop) continue;
-      pressed_ = true;
-      budget_->letFinish();
-      budget_->limitTime(budget_->seconds());
-      console_.line(LogLevel::info, "stopping; Ctrl-C again stops at once");
-    }
-  }
-
-  static constexpr int kInterval = 100;  // milliseconds
-  const Console& console_;
-  Budget* budget_;
-  Signals signals_;
-  std::atomic<bool> finished_{false}, pressed_{false};
-  std::thread thread_;
-};
 
 /// The page's name with another suffix; "" of none.
 std::string besidePage(const std::string& page, const char* suffix) {

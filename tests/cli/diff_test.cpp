@@ -327,5 +327,31 @@ TEST_F(Diff, GradeReadsNoPipesAndDevices) {
   EXPECT_TRUE(contains(r.out, "\nmissing     c.png\n"));
 }
 
+TEST_F(DiffCause, TheSceneSaysWhatAProgramDidDifferently) {
+  render("right.png");
+  render("wrong.png", {"--highlight", "phong"});
+  const std::string scene = sourceFolder() + "/scenes/materials.ray";
+  const std::vector<std::string> words{"diff", "right.png", "wrong.png", "--scene", scene, "--spp", "1"};
+  const Run r = run(words);
+  EXPECT_EQ(r.code, 1) << r.err;
+  EXPECT_TRUE(contains(r.out, "\n  scene   wrong.png is what " + scene +
+                                  " gives with --highlight phong; nothing else differs beyond rounding"));
+  std::vector<std::string> asJson = words;
+  asJson.insert(asJson.end(), {"--format", "json"});
+  const json found = json::parse(run(asJson).out)["scene"];
+  EXPECT_EQ(found["test"]["text"], "with --highlight phong");
+  EXPECT_EQ(found["test"]["rmse"], 0);
+  EXPECT_EQ(found["reference"]["variants"].size(), 0u);
+  EXPECT_EQ(found["stopped"], nullptr);
+  EXPECT_EQ(found["tried"], found["variants"]);
+
+  EXPECT_TRUE(contains(run({"diff", "right.png", "wrong.png", "--spp", "1"}).err, "expected --scene SCENE"));
+  const Run broken = run({"diff", "right.png", "wrong.png", "--scene", "no.ray"});
+  EXPECT_EQ(broken.code, 2);
+  EXPECT_TRUE(contains(broken.err, "no.ray"));
+  EXPECT_TRUE(contains(run({"diff", "right.png", "wrong.png", "--scene", "right.png", "-o", "right.png"}).err,
+                       "same"));
+}
+
 }  // namespace
 }  // namespace trace::test

@@ -41,7 +41,8 @@ constexpr PictureChange::Channels kChannelOrders[] = {
 };
 
 constexpr double kLevel = 1.0 / 255;
-constexpr int kLargestBlock = 8, kMostBlocks = 128, kLeastBlocks = 25;
+constexpr int kLargestBlock = 8, kMostBlocks = 128;
+constexpr std::size_t kLeastBlocks = 25;
 constexpr double kDecisive = 0.25;         // the share of the difference that may be left
 constexpr double kDecisiveShift = 0.75;    // the same for a shift
 constexpr double kOpposite = 1.25;         // the share that the opposite shift must leave at least
@@ -345,16 +346,6 @@ std::vector<PictureChange> curvesBetween(const LoadedPicture& reference, const L
   return changes;
 }
 
-/// A change and what it leaves between the blocks.
-struct ChangeCandidate {
-  PictureChange change;
-  double left = std::numeric_limits<double>::infinity();
-  double contrast = 0;
-
-  bool explains() const { return contrast > 0 && left <= kLeftOfContrast * contrast; }
-  bool isWorthACause() const { return left > kWorthwhile * contrast; }
-};
-
 /// The blocks of both pictures under a curve.
 struct CurvedBlocks {
   CurvedBlocks(const PictureChange& change, const LoadedPicture& reference, const LoadedPicture& test)
@@ -366,8 +357,8 @@ struct CurvedBlocks {
     contrast = std::min(contrastOf(from, ofScreen), contrastOf(to, ofScreen));
   }
 
-  ChangeCandidate with(const PictureChange::Turn& turn, const PictureChange::Channels& channels) const {
-    ChangeCandidate candidate{curve, leftBetween(from, to, turn, channels), contrast};
+  ChangeFit with(const PictureChange::Turn& turn, const PictureChange::Channels& channels) const {
+    ChangeFit candidate{curve, leftBetween(from, to, turn, channels), contrast};
     candidate.change.turn = turn;
     candidate.change.channels = channels;
     return candidate;
@@ -378,27 +369,8 @@ struct CurvedBlocks {
   double contrast = 0;
 };
 
-/// The best change without a shift for each number of parts from 0 to 3.
-std::array<ChangeCandidate, 4> bestOfEachCount(const LoadedPicture& reference, const LoadedPicture& test) {
-  std::array<ChangeCandidate, 4> best;
-  for (const PictureChange& curve : curvesBetween(reference, test)) {
-    const CurvedBlocks blocks(curve, reference, test);
-    for (const PictureChange::Turn& turn : kTurns) {
-      if (!fits(turn, reference.picture, test.picture)) continue;
-      for (const PictureChange::Channels& channels : kChannelOrders) {
-        const ChangeCandidate candidate = blocks.with(turn, channels);
-        ChangeCandidate& found = best[static_cast<std::size_t>(candidate.change.parts())];
-        // The first of equals is kept, though their sums were rounded differently.
-        if (candidate.left < found.left - 1e-9 * blocks.contrast) found = candidate;
-      }
-    }
-  }
-  return best;
-}
-
 /// The candidate with a shift, if it is decisive; else itself.
-ChangeCandidate shifted(const ChangeCandidate& candidate, const LoadedPicture& reference,
-                        const LoadedPicture& test) {
+ChangeFit shifted(const ChangeFit& candidate, const LoadedPicture& reference, const LoadedPicture& test) {
   const CurvedPair pair(reference, test, candidate.change);
   const BlockMeans from = blocksOf(pair.reference);
   std::vector<BlockMeans> whole;  // rows, then columns, of shifts from -1 to 1
@@ -415,7 +387,7 @@ ChangeCandidate shifted(const ChangeCandidate& candidate, const LoadedPicture& r
     const BlockMeans to = half == 0 ? row(down / 2) : meanOf(row(0), row(half));
     return leftBetween(from, to, candidate.change.turn, candidate.change.channels);
   };
-  ChangeCandidate best = candidate;
+  ChangeFit best = candidate;
   int bestRight = 0, bestDown = 0;
   for (int down = -2; down <= 2; ++down)
     for (int right = -2; right <= 2; ++right) {
@@ -435,13 +407,13 @@ ChangeCandidate shifted(const ChangeCandidate& candidate, const LoadedPicture& r
 
 /// The shifted candidate with the curve that leaves least. Without the shift, curves that are nearly alike
 /// cannot be told apart.
-ChangeCandidate withBestCurve(const ChangeCandidate& shiftedOne, const LoadedPicture& reference,
-                              const LoadedPicture& test) {
-  ChangeCandidate best = shiftedOne;
+ChangeFit withBestCurve(const ChangeFit& shiftedOne, const LoadedPicture& reference,
+                        const LoadedPicture& test) {
+  ChangeFit best = shiftedOne;
   for (const PictureChange& curve : curvesBetween(reference, test)) {
     if (curve.curve == Curve::none) continue;
     const PictureChange& change = shiftedOne.change;
-    const ChangeCandidate other =
+    const ChangeFit other =
         shifted(CurvedBlocks(curve, reference, test).with(change.turn, change.channels), reference, test);
     const bool sameShift = other.change.right == change.right && other.change.down == change.down;
     if (sameShift && other.left < best.left) best = other;
@@ -451,27 +423,59 @@ ChangeCandidate withBestCurve(const ChangeCandidate& shiftedOne, const LoadedPic
 
 }  // namespace
 
-std::optional<DifferenceCause> causeOfDifference(const LoadedPicture& reference, const LoadedPicture& test) {
+bool ChangeFit::explains() const { return contrast > 0 && left <= kLeftOfContrast * contrast; }
+bool ChangeFit::isWorthACause() const { return left > kWorthwhile * contrast; }
+bool ChangeFit::replaces(const ChangeFit& simpler) const {
+  return simpler.isWorthACause() && left <= kDecisive * simpler.left;
+}
+
+bool areComparable(const LoadedPicture& reference, const LoadedPicture& test) {
   const Picture &a = reference.picture, &b = test.picture;
   const bool sameSize = a.width == b.width && a.height == b.height;
-  if (!sameSize && !(a.width == b.height && a.height == b.width)) return std::nullopt;
+  if (!sameSize && !(a.width == b.height && a.height == b.width)) return false;
   const int size = blockSize(b.width, b.height);
-  if (b.width < size + 2 || b.height < size + 2) return std::nullopt;
-  if ((blockStarts(b.width, size).size() - 1) * (blockStarts(b.height, size).size() - 1) < kLeastBlocks)
-    return std::nullopt;
+  return b.width >= size + 2 && b.height >= size + 2 &&
+         (blockStarts(b.width, size).size() - 1) * (blockStarts(b.height, size).size() - 1) >= kLeastBlocks;
+}
 
-  const std::array<ChangeCandidate, 4> best = bestOfEachCount(reference, test);
-  ChangeCandidate chosen = best[0];
-  for (const ChangeCandidate& candidate : best)
-    if (chosen.isWorthACause() && candidate.left <= kDecisive * chosen.left) chosen = candidate;
+std::array<ChangeFit, 4> bestChanges(const LoadedPicture& reference, const LoadedPicture& test) {
+  std::array<ChangeFit, 4> best;
+  for (const PictureChange& curve : curvesBetween(reference, test)) {
+    const CurvedBlocks blocks(curve, reference, test);
+    for (const PictureChange::Turn& turn : kTurns) {
+      if (!fits(turn, reference.picture, test.picture)) continue;
+      for (const PictureChange::Channels& channels : kChannelOrders) {
+        const ChangeFit candidate = blocks.with(turn, channels);
+        ChangeFit& found = best[static_cast<std::size_t>(candidate.change.parts())];
+        // The first of equals is kept, though their sums were rounded differently.
+        if (candidate.left < found.left - 1e-9 * blocks.contrast) found = candidate;
+      }
+    }
+  }
+  return best;
+}
+
+double rmseAfter(const PictureChange& change, const LoadedPicture& reference, const LoadedPicture& test) {
+  const double left = leftBetween(CurvedPair(reference, test, change), change);
+  return reference.levels && test.levels ? 255 * left : left;
+}
+
+std::optional<DifferenceCause> causeOfDifference(const LoadedPicture& reference, const LoadedPicture& test) {
+  if (!areComparable(reference, test)) return std::nullopt;
+  const std::array<ChangeFit, 4> best = bestChanges(reference, test);
+  ChangeFit chosen = best[0];
+  for (const ChangeFit& fit : best)
+    if (fit.replaces(chosen)) chosen = fit;
   if (std::isfinite(chosen.left) && chosen.isWorthACause()) chosen = shifted(chosen, reference, test);
   const bool isShifted = chosen.change.right != 0 || chosen.change.down != 0;
   if (isShifted && chosen.change.curve != Curve::none) chosen = withBestCurve(chosen, reference, test);
   if (chosen.change.parts() == 0 || !chosen.explains()) return std::nullopt;
 
-  const double left = leftBetween(CurvedPair(reference, test, chosen.change), chosen.change);
-  if (sameSize && !(left < leftBetween(CurvedPair(reference, test, {}), {}))) return std::nullopt;
-  return DifferenceCause{chosen.change, reference.levels && test.levels ? 255 * left : left};
+  const double rmse = rmseAfter(chosen.change, reference, test);
+  const bool sameSize =
+      reference.picture.width == test.picture.width && reference.picture.height == test.picture.height;
+  if (sameSize && !(rmse < rmseAfter({}, reference, test))) return std::nullopt;
+  return DifferenceCause{chosen.change, rmse};
 }
 
 }  // namespace trace

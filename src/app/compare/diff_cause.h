@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -42,6 +43,30 @@ struct PictureChange {
 /// Names of the curve for programs: "srgb", "gamma 2.2", "gamma 1.8", "scale", "light scale"; "" for none.
 std::string_view curveName(PictureChange::Curve curve);
 
+/// A change and what it leaves.
+struct ChangeFit {
+  PictureChange change;
+  double left = std::numeric_limits<double>::infinity();  ///< the root mean square between the blocks
+  double contrast = 0;  ///< the smaller standard deviation of the blocks of the two pictures
+
+  /// At most a tenth of the contrast is left.
+  bool explains() const;
+  /// At least a two-hundredth of the contrast is left.
+  bool isWorthACause() const;
+  /// It leaves so much less than one with fewer parts, which leaves enough, that it replaces that one.
+  bool replaces(const ChangeFit& simpler) const;
+};
+
+/// The sizes are equal, or those of a picture turned by 90 degrees, and there are enough blocks.
+bool areComparable(const LoadedPicture& reference, const LoadedPicture& test);
+
+/// The best change without a shift for each number of parts from 0 to 3. Precondition: areComparable().
+std::array<ChangeFit, 4> bestChanges(const LoadedPicture& reference, const LoadedPicture& test);
+
+/// The root mean square that is left of the difference after the change, in the unit of the difference.
+/// Rounding to levels and the pixels at the border do not count. Precondition: areComparable().
+double rmseAfter(const PictureChange& change, const LoadedPicture& reference, const LoadedPicture& test);
+
 struct DifferenceCause {
   PictureChange change;
   /// The error that is left when the change is undone, beyond that of rounding to levels; in the unit of the
@@ -69,5 +94,8 @@ std::optional<DifferenceCause> causeOfDifference(const LoadedPicture& reference,
 /// One sentence without a full stop: "mine.png is ref.png upside down; nothing else differs beyond rounding".
 std::string causeText(const DifferenceCause& cause, const std::string& reference, const std::string& test,
                       std::string_view unit);
+
+/// The rest of a difference in words: "nothing else differs beyond rounding".
+std::string leftText(double rmse, std::string_view unit);
 
 }  // namespace trace

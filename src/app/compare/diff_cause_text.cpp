@@ -66,9 +66,12 @@ std::string PictureChange::text() const {
 
 std::string causeText(const DifferenceCause& cause, const std::string& reference, const std::string& test,
                       std::string_view unit) {
-  const std::string text = test + " is " + reference + " " + cause.change.text() + "; ";
-  if (cause.rmse == 0) return text + "nothing else differs beyond rounding";
-  return text + "apart from that, RMSE " + roundedText(cause.rmse, 3) + " " + std::string(unit);
+  return test + " is " + reference + " " + cause.change.text() + "; " + leftText(cause.rmse, unit);
+}
+
+std::string leftText(double rmse, std::string_view unit) {
+  if (rmse == 0) return "nothing else differs beyond rounding";
+  return "apart from that, RMSE " + roundedText(rmse, 3) + " " + std::string(unit);
 }
 
 }  // namespace trace

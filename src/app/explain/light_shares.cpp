@@ -38,8 +38,9 @@ std::string sourceOf(const Term& term, const RayNode& node, const RayTree& tree,
   }
 }
 
-/// How the ray comes from the camera: ", by reflection in ball and 3 more rays"; "" for the camera ray.
-std::string wayOf(int ray, const RayTree& tree, const Scene& scene) {
+}  // namespace
+
+std::string wayText(int ray, const RayTree& tree, const Scene& scene) {
   int first = ray, more = 0;
   for (int parent = rayAt(tree, ray).parent; parent > 0; parent = rayAt(tree, parent).parent) {
     first = parent;
@@ -52,8 +53,6 @@ std::string wayOf(int ray, const RayTree& tree, const Scene& scene) {
          (more == 0 ? "" : " and " + std::to_string(more) + (more == 1 ? " more ray" : " more rays"));
 }
 
-}  // namespace
-
 std::vector<LightShare> lightShares(const RayTree& tree, const Scene& scene) {
   std::vector<LightShare> shares;
   double all = 0;
@@ -63,7 +62,7 @@ std::vector<LightShare> lightShares(const RayTree& tree, const Scene& scene) {
     for (const Term& term : node.terms) {
       const Color brings = node.weight * node.through * term.factor * term.value;
       if (term.goesOn() || term.dark || isBlack(brings) || !isFinite(brings)) continue;
-      const std::string from = sourceOf(term, node, tree, scene) + wayOf(ray, tree, scene);
+      const std::string from = sourceOf(term, node, tree, scene) + wayText(ray, tree, scene);
       const auto same = std::find_if(shares.begin(), shares.end(),
                                      [&](const LightShare& share) { return share.from == from; });
       if (same == shares.end())

@@ -15,6 +15,9 @@ struct LightShare {
   double share = 0;  ///< share of the luminance of all, including what was removed
 };
 
+/// How a ray comes from the camera: ", by reflection in ball and 3 more rays"; "" for the camera ray.
+std::string wayText(int ray, const RayTree& tree, const Scene& scene);
+
 /// Those whose share is not 0. The rays must be weighed.
 std::vector<LightShare> lightShares(const RayTree& tree, const Scene& scene);
 

@@ -1,0 +1,210 @@
+// Wrong renderers, made by breaking our own: what a program did differently with a scene is named, and where
+// nothing that was tried explains it, that is said.
+#include "app/compare/scene_cause.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "app/session/session.h"
+#include "base/file.h"
+#include "image/codec.h"
+#include "image/development.h"
+#include "support/folder.h"
+#include "support/paths.h"
+
+namespace trace::test {
+namespace {
+
+/// A floor, a mirror, a glass ball, and things with highlights, in the light of two lamps.
+constexpr const char* kRoom = R"(SBT-raytracer 1.0
+camera { position = (0, 2.4, 7); look_at = (0, 0.7, 0); fov = 36; aspectratio = 1.5; }
+point_light { name = "key"; position = (-3, 5, 4); color = (0.7, 0.66, 0.6); constant_attenuation_coeff = 0.4; linear_attenuation_coeff = 0.1; quadratic_attenuation_coeff = 0; }
+directional_light { name = "sun"; direction = (-0.6, -1, -0.3); color = (0.3, 0.32, 0.4); }
+ambient_light { color = (0.3, 0.3, 0.34); }
+material = { ambient = (0.5, 0.45, 0.4); diffuse = (0.6, 0.55, 0.5); }
+rotate(1, 0, 0, -1.5708, scale(20, 20, 1, square { name = "floor"; }))
+translate(0, 1.5, -3, scale(5, 3, 1, square { name = "mirror"; material = { reflective = (0.8, 0.8, 0.8); diffuse = (0.05, 0.05, 0.05); } }))
+translate(-1.4, 0.7, 0, scale(0.7, sphere { name = "ball"; material = { ambient = (0.4, 0.1, 0.1); diffuse = (0.7, 0.2, 0.15); specular = (0.6, 0.6, 0.6); shininess = 20; reflective = (0, 0, 0); } }))
+translate(0.3, 0.6, 1.2, scale(0.6, sphere { name = "glass"; material = { transmissive = (0.9, 0.95, 0.9); index = 1.5; specular = (0.5, 0.5, 0.5); shininess = 60; reflective = (0.08, 0.08, 0.08); } }))
+translate(1.7, 0.6, 0.2, rotate(0, 1, 0, 0.5, scale(1.2, box { name = "box"; material = { ambient = (0.1, 0.2, 0.4); diffuse = (0.2, 0.4, 0.7); specular = (0.3, 0.3, 0.3); shininess = 8; } })))
+)";
+
+class SceneCause : public testing::Test {
+ protected:
+  SceneCause() { writeFile(room(), kRoom); }
+
+  std::string room() const { return folder_ / "room.ray"; }
+
+  /// A picture of a scene's text after a replacement, as levels of a file.
+  LoadedPicture rendered(const std::vector<Choice>& choices = {}, const std::string& from = "",
+                         const std::string& to = "") const {
+    std::string text = kRoom;
+    if (!from.empty()) {
+      EXPECT_NE(text.find(from), text.npos) << from;
+      for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
+        text.replace(at, from.size(), to);
+    }
+    writeFile(folder_ / "other.ray", text);
+    return renderedFile(folder_ / "other.ray", choices);
+  }
+  static LoadedPicture renderedFile(const std::string& file, std::vector<Choice> choices) {
+    choices.insert(choices.begin(), {"width", "96", {}});
+    Session session;
+    session.open(file, choices);
+    session.build();
+    session.renderPicture();
+    const Settings& settings = session.settings();
+    return {fromBytes(toBytes(developed(session.picture(), developmentOf(settings)), settings.rounding)),
+            true};
+  }
+  SceneCauses causes(const LoadedPicture& reference, const LoadedPicture& test,
+                     const std::vector<Choice>& choices = {}) const {
+    return causesIn(room(), reference, test, choices);
+  }
+  static SceneCauses causesIn(const std::string& file, const LoadedPicture& reference,
+                              const LoadedPicture& test, const std::vector<Choice>& choices = {}) {
+    const Comparison numbers =
+        compare(toBytes(reference.picture, Rounding::nearest), toBytes(test.picture, Rounding::nearest));
+    const auto found = sceneCauses({.file = file, .choices = choices, .seconds = 0}, reference, test,
+                                   {numbers.worstX, numbers.worstY});
+    EXPECT_TRUE(found.has_value());
+    return found.value_or(SceneCauses{});
+  }
+  static std::string textOf(const std::optional<SceneMatch>& match) { return match ? match->text() : "none"; }
+
+  const Folder folder_;
+};
+
+TEST_F(SceneCause, TermsThatAreMissingAreNamed) {
+  const LoadedPicture right = rendered();
+  struct {
+    std::string from, to, cause, pixel;
+  } const cases[] = {
+      {"material = {", "material = { shadow = 0;", "without shadows", "lacks the shadow of "},
+      {"reflective = (0.8, 0.8, 0.8); diffuse", "reflective = (0, 0, 0); diffuse", "",
+       "lacks the reflection in mirror"},
+      {"ambient_light { color = (0.3, 0.3, 0.34); }", "", "without ambient light",
+       "lacks the ambient light on "},
+      {"index = 1.5", "index = 1.0003", "with glass that does not bend light", ""},
+      {"direction = (-0.6, -1, -0.3)", "direction = (0.6, 1, 0.3)",
+       "with directional lights from the opposite side", "lacks the light of sun on "},
+      {"linear_attenuation_coeff = 0.1", "linear_attenuation_coeff = 0", "", ""},
+  };
+  for (const auto& [from, to, cause, pixel] : cases) {
+    SCOPED_TRACE(from + " -> " + to);
+    const SceneCauses found = causes(right, rendered({}, from, to));
+    if (!cause.empty()) {
+      EXPECT_EQ(textOf(found.test), cause);
+      ASSERT_TRUE(found.test.has_value());
+      EXPECT_LT(found.test->rmse, 0.1);
+    }
+    if (pixel.empty()) continue;
+    ASSERT_TRUE(found.pixel.has_value());
+    EXPECT_TRUE(found.pixel->text.starts_with(pixel)) << found.pixel->text;
+  }
+}
+
+TEST_F(SceneCause, OptionsThatDifferAreNamed) {
+  const LoadedPicture right = rendered();
+  for (const auto& [name, value] :
+       std::vector<std::pair<std::string, std::string>>{{"highlight", "phong"},
+                                                        {"depth", "1"},
+                                                        {"depth", "0"},
+                                                        {"omit", "box"},
+                                                        {"projection", "orthographic"},
+                                                        {"pixel-position", "center"},
+                                                        {"like", "ut"},
+                                                        {"tone", "stretch"}}) {
+    SCOPED_TRACE(name + " " + value);
+    const bool isBase = name == "depth" && value == "1";
+    const std::vector<Choice> base = isBase ? std::vector<Choice>{{"depth", "2", {}}} : std::vector<Choice>{};
+    const SceneCauses found = causes(isBase ? rendered(base) : right, rendered({{name, value, {}}}), base);
+    EXPECT_EQ(textOf(found.test), "with --" + name + " " + value);
+    ASSERT_TRUE(found.test.has_value());
+    EXPECT_EQ(found.test->rmse, 0);
+  }
+}
+
+TEST_F(SceneCause, AVariantAndAChangeOfThePictureAreNamedTogether) {
+  const LoadedPicture right = rendered();
+  LoadedPicture wrong = rendered({}, "material = {", "material = { shadow = 0;");
+  std::reverse(wrong.picture.pixels.begin(), wrong.picture.pixels.end());
+  const SceneCauses found = causes(right, wrong);
+  EXPECT_EQ(textOf(found.test), "without shadows and turned by 180 degrees");
+  EXPECT_FALSE(found.pixel.has_value()) << "its pixels lie elsewhere";
+}
+
+TEST_F(SceneCause, TwoVariantsAreNamedTogether) {
+  const SceneCauses found = causes(
+      rendered(), rendered({{"highlight", "phong", {}}}, "ambient_light { color = (0.3, 0.3, 0.34); }", ""));
+  const std::string text = textOf(found.test);
+  EXPECT_TRUE(text == "without ambient light and with --highlight phong" ||
+              text == "with --highlight phong and without ambient light")
+      << text;
+}
+
+TEST_F(SceneCause, WhatNothingExplainsIsSaid) {
+  const LoadedPicture right = rendered();
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"translate(-1.4, 0.7, 0, scale(0.7,", "translate(-1.1, 0.7, 0.3, scale(0.7,"},
+      {"diffuse = (0.2, 0.4, 0.7)", "diffuse = (0.7, 0.4, 0.2)"},
+      {"position = (-3, 5, 4)", "position = (-1, 5, 4)"},
+      {"fov = 36", "fov = 31"},
+      {"shininess = 20", "shininess = 3"},
+      {"rotate(0, 1, 0, 0.5, scale(1.2,", "rotate(0, 1, 0, 1.1, scale(1,"},
+      {"index = 1.5", "index = 1.2"},
+      {"transmissive = (0.9, 0.95, 0.9)", "transmissive = (0.3, 0.95, 0.9)"},
+      {"translate(0, 1.5, -3,", "translate(0.9, 1.5, -2.2,"},
+      {"look_at = (0, 0.7, 0)", "look_at = (0.3, 0.7, 0)"},
+  };
+  for (const auto& [from, to] : cases) {
+    SCOPED_TRACE(from + " -> " + to);
+    const SceneCauses found = causes(right, rendered({}, from, to));
+    EXPECT_EQ(textOf(found.test), "none");
+    const std::string said = sceneSentences(found, "ref.png", "mine.png").front();
+    EXPECT_TRUE(said.starts_with("none of ")) << said;
+    EXPECT_NE(said.find("explains mine.png"), said.npos) << said;
+  }
+}
+
+TEST_F(SceneCause, TheReferenceMayBeMadeByOtherOptions) {
+  const LoadedPicture reference = rendered({{"highlight", "phong", {}}}), plain = rendered();
+  const SceneCauses same = causes(reference, plain);
+  EXPECT_EQ(textOf(same.reference), "with --highlight phong");
+  EXPECT_EQ(textOf(same.test), "");
+  EXPECT_EQ(
+      sceneSentences(same, "ref.png", "mine.png").front(),
+      "mine.png is what " + room() + " gives; nothing else differs beyond rounding in 6144 pixels compared");
+  const SceneCauses both =
+      causes(reference, rendered({{"highlight", "phong", {}}}, "material = {", "material = { shadow = 0;"));
+  EXPECT_EQ(textOf(both.test), "with --highlight phong and without shadows");
+}
+
+TEST_F(SceneCause, ExamplesOfTheRepository) {
+  struct {
+    std::string scene, option, value;
+  } const cases[] = {{"mirrors.ray", "depth", "0"},
+                     {"shadows.ray", "glass-shadows", "black"},
+                     {"conventions.ray", "glass", "per-distance"}};
+  for (const auto& [scene, option, value] : cases) {
+    SCOPED_TRACE(scene);
+    const std::string file = sourceFolder() + "/scenes/" + scene;
+    const std::vector<Choice> base{{"spp", "1", {}}};
+    const SceneCauses found =
+        causesIn(file, renderedFile(file, base), renderedFile(file, {base[0], {option, value, {}}}), base);
+    ASSERT_TRUE(found.test.has_value()) << found.variants;
+    EXPECT_EQ(found.test->rmse, 0) << found.test->text();
+  }
+}
+
+TEST_F(SceneCause, SmallPicturesAndOtherSizesHaveNone) {
+  const LoadedPicture small{Picture(4, 4), true}, other{Picture(90, 40), true};
+  EXPECT_FALSE(sceneCauses({.file = room()}, small, small, {}).has_value());
+  EXPECT_FALSE(sceneCauses({.file = room()}, rendered(), other, {}).has_value());
+}
+
+}  // namespace
+}  // namespace trace::test
