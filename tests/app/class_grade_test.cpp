@@ -139,7 +139,7 @@ TEST_F(ClassGradeTest, ASecondRunComparesNothingAndMakesTheSamePage) {
   EXPECT_EQ(classPage(task(), second), classPage(task(), first));
   EXPECT_EQ(classCsv(second), classCsv(first));
 
-  picture("in/bob/a.png", classPicture());
+  picture("in/bob/a.png", classPicture(3, 0));
   EXPECT_EQ(gradeClass(task()).computed, 1u) << "one picture has changed";
   ClassTask stricter = task();
   stricter.grade.difference.tolerance = 0;

@@ -56,7 +56,9 @@ std::string thumbnailFile(const Picture& picture) {
 /// The parts of the path from its end on, in small letters, the first without its suffix.
 std::vector<std::string> partsFromEnd(const std::string& path) {
   std::vector<std::string> parts;
-  for (const fs::path& part : fs::path(lowerCase(path)).replace_extension()) parts.push_back(part.string());
+  fs::path whole(lowerCase(path));
+  whole.replace_extension();
+  for (const fs::path& part : whole) parts.push_back(part.string());
   std::reverse(parts.begin(), parts.end());
   return parts;
 }

@@ -132,7 +132,7 @@ class PixelTerms {
     sum(totals_, "lacks all shadows, which take", "shadow", taken);
   }
 
-  /// The name of the object that a shadow ray met.
+  /// The name of the object that a shadow ray hit.
   std::string blockerOf(const RayNode& shadow) const {
     for (const RayEnd& end : shadow.ends)
       if (const Blocked* blocked = std::get_if<Blocked>(&end)) return objectName(scene_, blocked->object);

@@ -171,7 +171,7 @@ class VariantSearch {
             other.explains() || !ofTest.explains())
           ofTest = other;
       }
-      if (!ofTest.explains())
+      if (!ofTest.explains() || (ofTest.parts > 0 && ofTest.fit.isWorthACause()))
         if (const TriedVariants* half = helpful(start)) {
           addVariants(startOf(*half));
           ofTest = best(sampledTest_, start.tried.names);

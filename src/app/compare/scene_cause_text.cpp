@@ -68,8 +68,10 @@ std::vector<std::string> sceneSentences(const SceneCauses& causes, const std::st
                                         const std::string& test) {
   std::vector<std::string> all{testText(causes, test)};
   if (!causes.reference)
-    all.push_back(reference + " is not what " + printable(causes.file) +
-                  " gives: are these the options that it was rendered with?");
+    all.push_back(reference + " is not what " + printable(causes.file) + " gives: " +
+                  (causes.test && causes.test->text().empty()
+                       ? "the reference stands first, the picture to explain second"
+                       : "are these the options that it was rendered with?"));
   else if (!causes.reference->text().empty())
     all.push_back(reference + " is " + givenText(causes, *causes.reference));
   if (!causes.stopped.empty())
