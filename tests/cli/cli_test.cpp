@@ -179,7 +179,7 @@ TEST_F(Cli, EachCommandHasItsOwnHelp) {
 TEST_F(Cli, AloneWithoutAStudioTellsWhatToType) {
   std::filesystem::create_directory(path("bin"));
   std::filesystem::copy(test::rayProgram(), path("bin/ray"));  // with no ray-studio beside it
-  write("scene.ray", kWhite);  // it would write one, and render it
+  write("scene.ray", kWhite);                                  // it would write one, and render it
   const int status = std::system(("cd " + folder() + " && bin/ray >o 2>e").c_str());
   EXPECT_EQ(WEXITSTATUS(status), 2);
   EXPECT_EQ(readFile(path("o")), "");

@@ -72,9 +72,10 @@ TEST_F(Silence, ASceneWithoutLightIsToldALight) {
 }
 
 TEST_F(Silence, AnEmitterThatIsNotSampledIsTold) {
-  const std::string flame = replaced(
-      kFirst, "point_light { position = (-6, 9, 6); color = (1, 1, 1); radius = 1; }",
-      "translate(0, 2, 0, scale(0.02, 0.04, 0.02, menger { levels = 2; material = { emissive = (9, 9, 9); } }))");
+  const std::string flame =
+      replaced(kFirst, "point_light { position = (-6, 9, 6); color = (1, 1, 1); radius = 1; }",
+               "translate(0, 2, 0, scale(0.02, 0.04, 0.02, menger { levels = 2; material = { emissive = (9, "
+               "9, 9); } }))");
   write("flame.ray", flame);
   const std::string told = "emissive menger at random alone";
   EXPECT_TRUE(contains(run({"flame.ray", "flame.png", "-w", "40", "--integrator", "path"}).err, told));

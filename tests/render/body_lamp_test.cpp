@@ -1,5 +1,7 @@
-// Emissive bodies of any shape that is sampled as a light: the densities are those of what is chosen, and every
-// integrator shows their light.
+// Emissive bodies of any shape that is sampled as a light: the densities are those of what is chosen, and
+// every integrator shows their light.
+#include "render/lights/body_lamp.h"
+
 #include <gtest/gtest.h>
 
 #include "geometry/shapes/mandelbulb.h"
@@ -7,7 +9,6 @@
 #include "geometry/shapes/square.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
-#include "render/lights/body_lamp.h"
 #include "render/lights/lamps.h"
 #include "render/picture/agreement.h"
 #include "render/picture/explain.h"
@@ -69,7 +70,8 @@ TEST(BodyLamp, ItsPlacesAreSpreadEvenlyOverItsSurface) {
     EXPECT_NEAR(body->area() / area, 1, 0.25);
     if (b.area > 0) EXPECT_NEAR(area / b.area, 1, 0.01);
     if (b.volume > 0) EXPECT_NEAR(volume / b.volume, 1, 0.03);
-    EXPECT_LT(length(normals), 0.03 * area) << "what is closed has as much on each side; of sheets both count";
+    EXPECT_LT(length(normals), 0.03 * area)
+        << "what is closed has as much on each side; of sheets both count";
   }
 }
 

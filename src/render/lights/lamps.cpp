@@ -61,7 +61,8 @@ Lamps::Lamps(const World& world, int threads, bool onlyHere)
            m * Vec3{-0.5, -0.5, 0}, a, b, area, 0},
           area, 2, emissive);
     } else if (const Real radius = uniformScale(m); shape == Sphere::kKeyword && radius > 0) {
-      add({Part::Kind::sphere, object, m * Vec3{}, {}, {}, radius, 0}, kSphere * radius * radius, 1, emissive);
+      add({Part::Kind::sphere, object, m * Vec3{}, {}, {}, radius, 0}, kSphere * radius * radius, 1,
+          emissive);
     } else if (const auto body = BodyLamp::of(world, object)) {
       add({Part::Kind::body, object, body->middle(), {}, {}, body->radius(), 0, bodies_.size()}, body->area(),
           body->closed() ? 1 : 2, emissive);
@@ -231,7 +232,8 @@ std::optional<Lamps::Start> Lamps::start(const World& world, Real which, const V
   const Part& part = parts_[number];
   if (part.kind == Part::Kind::body) {
     const BodyLamp& body = bodies_[part.body];
-    const Real before = number > 0 ? sums_[number - 1] : 0;  // what is left of the number chooses the crossing
+    const Real before =
+        number > 0 ? sums_[number - 1] : 0;  // what is left of the number chooses the crossing
     const Real rest = std::clamp((which - before) / part.share, 0.0, kBelowOne);
     const auto place = body.place(world, u, line, rest);
     if (!place) return {};
