@@ -20,10 +20,6 @@
 namespace trace {
 namespace {
 
-Tile intersection(const Tile& a, const Tile& b) {
-  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
-}
-
 std::int64_t pixelsIn(const Tile& area) {
   return std::int64_t{std::max(0, area.x1 - area.x0)} * std::max(0, area.y1 - area.y0);
 }

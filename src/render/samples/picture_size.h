@@ -1,6 +1,8 @@
 // The size of a picture in pixels, and the part of it that is rendered.
 #pragma once
 
+#include <algorithm>
+
 #include "image/film.h"
 #include "scene/settings.h"
 #include "shading/cameras/camera.h"
@@ -13,6 +15,11 @@ struct Size {
 /// The size of the picture: height 0 in the settings becomes floor(width / aspect ratio + 0.5), at least 1.
 /// Throws Error(Fault::limit) if that is beyond what a picture can have.
 Size pictureSize(const Settings& settings, const Camera& camera);
+
+/// What both tiles have; x1 <= x0 or y1 <= y0 if that is nothing.
+inline Tile intersection(const Tile& a, const Tile& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
 
 /// The part of the picture that is rendered.
 Tile areaOf(const Region& region, const Size& size);
