@@ -16,7 +16,7 @@ struct Size {
 /// Throws Error(Fault::limit) if that is beyond what a picture can have.
 Size pictureSize(const Settings& settings, const Camera& camera);
 
-/// What both tiles have; x1 <= x0 or y1 <= y0 if that is nothing.
+/// The area that both tiles share; x1 <= x0 or y1 <= y0 if there is none.
 inline Tile intersection(const Tile& a, const Tile& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
