@@ -190,10 +190,14 @@ TEST(Tutorial, ShowsTheSceneOfEachStep) {
 class Lessons : public ProgramTest {
  protected:
   /// Does as a reader does who pastes all blocks of a page, one after the other: scenes into the file `name`,
-  /// commands into a terminal, whose pictures are made small.
+  /// commands into a terminal, whose pictures are made small. A block that begins with "# NAME:" is that file.
   void follow(const fs::path& page, const std::string& name) {
     SCOPED_TRACE(page);
     for (const std::string& block : pageOf(page).blocks) {
+      if (block.starts_with("# ")) {
+        write(block.substr(2, block.find(':') - 2), block);
+        continue;
+      }
       if (!isCommand(block)) {
         if (exists("pieces.inc") && !isScene(block)) continue;  // shown of that file
         write(name, isScene(block) ? block : "Trace 1\n" + block);
@@ -244,10 +248,12 @@ TEST_F(Lessons, TheTutorialWorksWhenPasted) {
 
 TEST_F(Lessons, TheHowTosWorkWhenPasted) {
   fs::copy(kRoot / "scenes", path("scenes"), fs::copy_options::recursive);
-  for (const char* made : {"solution", "handed-in", "scenes-in"}) fs::create_directory(path(made));
+  for (const char* made : {"solution", "handed-in", "scenes-in", "submissions/ann"})
+    fs::create_directories(path(made));
   write("scenes-in/white.ray", kWhite);
   ASSERT_EQ(run({"white.ray", "solution/white.png", "-w", "64"}).code, 0);
-  fs::copy(path("solution/white.png"), path("handed-in/white.png"));
+  for (const char* submitted : {"handed-in", "submissions/ann"})
+    fs::copy(path("solution/white.png"), path(submitted) + "/white.png");
   for (const fs::path& page : pagesBelow(kRoot / "docs/how-to")) {
     fs::remove(path("scene.ray"));
     ASSERT_EQ(run({"new", "scene.ray"}).code, 0);
