@@ -190,7 +190,8 @@ TEST(Tutorial, ShowsTheSceneOfEachStep) {
 class Lessons : public ProgramTest {
  protected:
   /// Does as a reader does who pastes all blocks of a page, one after the other: scenes into the file `name`,
-  /// commands into a terminal, whose pictures are made small. A block that begins with "# NAME:" is that file.
+  /// commands into a terminal, whose pictures are made small. A block that begins with "# NAME:" is that
+  /// file.
   void follow(const fs::path& page, const std::string& name) {
     SCOPED_TRACE(page);
     for (const std::string& block : pageOf(page).blocks) {
