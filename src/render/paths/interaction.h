@@ -21,7 +21,7 @@ class Interaction {
  public:
   /// For a ray that ends at `hit`; `inside` is what it was in there. `footprint` is that of the ray at the
   /// hit, if textures want it. `spread` from 0 to 1 says where wavelengths lie, should light be split here.
-  /// What is passed must live longer.
+  /// The arguments must live longer.
   Interaction(Tracer& tracer, const Ray& ray, const Hit& hit, const Differentials* footprint,
               const Interfaces& inside, Real spread);
   Interaction(const Interaction&) = delete;
