@@ -41,13 +41,13 @@ struct MixedBsdf : WhittedTerms {
   Real density(const Frame& frame, const Vec3& toEye, const Vec3& toLight) const;
 };
 
-Color exactMirrorWeight(const Bsdf& bsdf, Real cosine) {
+Color exactMirrorWeightOfOther(const Bsdf& bsdf, Real cosine) {
   if (const auto* mixed = bsdf.as<MixedBsdf>()) return mixed->exactMirrorWeight(cosine);
   return isGlossy(bsdf) ? Color(0) : mirrorWeight(bsdf, cosine);
 }
 
-bool isGlossy(const Bsdf& bsdf) {
-  return !bsdf.is<PhongBsdf>() && !bsdf.is<MixedBsdf>() && !mirrorIsExact(bsdf) &&
+bool isOtherGlossy(const Bsdf& bsdf) {
+  return !bsdf.is<MixedBsdf>() && !mirrorIsExact(bsdf) &&
          (bsdf.terms().mirrors() || bsdf.terms().transmits());
 }
 

@@ -121,14 +121,19 @@ inline Color mirrorWeight(const Bsdf& bsdf, Real cosine) {
   if (const auto* phong = bsdf.as<PhongBsdf>()) return phong->mirrorWeight(cosine);
   return bsdf.row().mirrorWeight(bsdf.data(), cosine);
 }
-/// The terms without the rays that stand for lobes, for integrators that follow these.
-Color exactMirrorWeight(const Bsdf& bsdf, Real cosine);
+/// The terms without the rays that stand for lobes, for integrators that follow these; not of Phong's model.
+Color exactMirrorWeightOfOther(const Bsdf& bsdf, Real cosine);
+inline Color exactMirrorWeight(const Bsdf& bsdf, Real cosine) {
+  if (const auto* phong = bsdf.as<PhongBsdf>()) return phong->mirrorWeight(cosine);
+  return exactMirrorWeightOfOther(bsdf, cosine);
+}
 /// The weight of the ray that goes straight on, where the passage is straight.
 inline Color passWeight(const Bsdf& bsdf, Real cosine) { return bsdf.row().passWeight(bsdf.data(), cosine); }
 /// False if `evaluate` has all that is mirrored.
 inline bool mirrorIsExact(const Bsdf& bsdf) { return bsdf.row().mirrorIsExact(bsdf.data()); }
 /// It mirrors or refracts into a lobe, for the core of which Whitted's rays stand.
-bool isGlossy(const Bsdf& bsdf);
+bool isOtherGlossy(const Bsdf& bsdf);
+inline bool isGlossy(const Bsdf& bsdf) { return !bsdf.is<PhongBsdf>() && isOtherGlossy(bsdf); }
 
 /// f |cos(toLight)|, of what is spread over directions.
 inline Color evaluate(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, const Vec3& toLight,
@@ -139,6 +144,7 @@ inline Color evaluate(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, c
 /// A direction chosen by three numbers from 0 to 1. Nothing where nothing is scattered to the eye.
 inline std::optional<BsdfSample> sample(const Bsdf& bsdf, const Frame& frame, const Vec3& toEye, Real choose,
                                         Vec2 u, Transport transport = Transport::radiance) {
+  if (const auto* phong = bsdf.as<PhongBsdf>()) return phong->sample(frame, toEye, choose, u, transport);
   return bsdf.row().sample(bsdf.data(), frame, toEye, choose, u, transport);
 }
 /// The density of that choice, per solid angle.

@@ -110,10 +110,10 @@ class LightSearch {
       ask(at, here);
       Sampler numbers = here.branch(1);
       const std::optional<Onward::Ray> next =
-          Onward(at, numbers.next()).choose(numbers.next(), here.branch(2), false, !bounces_);
+          Onward(at, numbers.next()).choose(numbers.next(), lobeNumbers(here.branch(2)));
       if (!next || (next->kind == RayKind::bounce && !bounces_ && !isGlossy(at.bsdf()))) return;
       const Ray on = hit->leave(next->direction);
-      Interfaces there = next->there;
+      Interfaces there = next->in(inside);
       hit = pixels_.tracer().cast(on, next->kind, there, numbers.next());
       ray = on;
       inside = there;
@@ -136,10 +136,10 @@ class LightSearch {
       if (!bounces_ && !photons_) return;
       Sampler numbers = sampler.branch(static_cast<std::uint32_t>(depth)).branch(1);
       const std::optional<Onward::Ray> next =
-          Onward(at, numbers.next()).choose(numbers.next(), numbers.branch(2), true);
+          Onward(at, numbers.next()).choose(numbers.next(), lobeNumbers(numbers.branch(2)), true);
       if (!next || (next->kind == RayKind::bounce && !bounces_)) return;
       const Ray on = hit->leave(next->direction);
-      inside = next->there;
+      if (next->behind) inside = *next->behind;
       hit = pixels_.tracer().cast(on, next->kind, inside, numbers.next());
       ray = on;
     }

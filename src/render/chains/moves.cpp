@@ -146,7 +146,7 @@ struct Moves::Walk {
 bool Moves::step(Path& path) {
   const Vertex* at = path.nodes.back().vertex.get();
   if (!at) return paths_.follow(path, RayKind::camera);
-  const auto next = at->onward.choose(numbers_.next(), lobes_);
+  const auto next = at->onward.choose(numbers_.next(), lobeNumbers(lobes_));
   return next && paths_.follow(path, next->kind, next->direction);
 }
 
@@ -180,12 +180,12 @@ bool Moves::askEnd(Path& path) {
 
 /// The walk continues from the place where it is, toward the camera.
 bool Moves::goOn(Walk& walk, const Vertex& from, RayKind& leaves) {
-  const auto next = from.onward.choose(numbers_.next(), lobes_, true);
+  const auto next = from.onward.choose(numbers_.next(), lobeNumbers(lobes_), true);
   if (!next) return false;
   leaves = next->kind;
   const Ray ray =
       next->kind == RayKind::bounce ? from.at.leaveToLight(next->direction) : from.hit.leave(next->direction);
-  Interfaces inside = next->there;
+  Interfaces inside = next->in(from.at.inside);
   const auto hit = paths_.tracer.cast(ray, RayKind::light, inside);
   if (!hit) return false;
   walk.at = std::make_unique<Vertex>(paths_.tracer, ray, std::move(inside), *hit);

@@ -74,7 +74,7 @@ bool Paths::follow(Path& path, RayKind kind, const Vec3& direction) const {
     auto only = from.vertex->onward.only(kind);
     if (!only) return false;
     ray = from.vertex->hit.leave(only->direction);
-    inside = std::move(only->there);
+    inside = only->in(from.vertex->at.inside);
     next.asked = kind == RayKind::refraction && from.asked && tracer.lightPasses(from.vertex->at.bsdf());
   }
   const auto hit = tracer.cast(ray, kind, inside);

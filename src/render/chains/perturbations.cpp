@@ -119,7 +119,7 @@ Offer Moves::caustic(Path& from) {
         auto only = reached->onward.only(from.nodes[i].leaves, true);
         if (!only) return false;
         ray = reached->hit.leave(only->direction);
-        inside = std::move(only->there);
+        inside = only->in(reached->at.inside);
       }
       const auto hit = paths_.tracer.cast(ray, RayKind::light, inside);
       if (!hit) return false;

@@ -5,12 +5,6 @@
 namespace trace::veach {
 namespace {
 
-Term::Kind termOf(RayKind kind) {
-  return kind == RayKind::bounce       ? Term::Kind::bounce
-         : kind == RayKind::reflection ? Term::Kind::reflection
-                                       : Term::Kind::refraction;
-}
-
 /// The light of the sampled light, by a shadow ray.
 void addLight(Gather& sum, const Path& path, const Interaction& at) {
   Tracer& tracer = sum.tracer();
@@ -60,7 +54,7 @@ Color arriving(const Path& path, std::size_t i, Tracer& tracer, const Ray& ray, 
     const Color light = arriving(path, i + 1, tracer, at.leaveToLight(toLight), place.side(toLight));
     sum.add(termOf(node.leaves), node.factor, light);
   } else if (const auto only = Onward(at, 0).only(node.leaves)) {
-    const Color light = arriving(path, i + 1, tracer, hit->leave(only->direction), only->there);
+    const Color light = arriving(path, i + 1, tracer, hit->leave(only->direction), only->in(inside));
     sum.add(termOf(node.leaves), only->weight, light);
   }
   return sum.radiance(inside.passed(hit->t));

@@ -3,9 +3,8 @@
 #include <algorithm>
 
 #include "render/integrators/bdpt_paths.h"
+#include "render/paths/onward.h"
 #include "render/paths/subsurface.h"
-#include "render/rays/firefly.h"
-#include "render/world/footprint.h"
 #include "shading/materials/subsurface.h"
 
 namespace trace {
@@ -75,62 +74,46 @@ Color Bidirectional::radiance(Tracer& tracer, Sampler sampler, const CameraRay& 
   Sample sample = sampleOf(sampler, camera.thrown);
   walkFromLight(tracer, sampler.branch(Branch::lightPath), sample);
   if (sample.ways.camera == 1) return Gather(tracer, 0).radiance();
-  Path path;
-  path.differentials = camera.differentials;
+  Path path{{camera.ray, camera.inside, sampler}};
+  if (camera.differentials) path.footprint = *camera.differentials;
   path.ink = camera.ink;
   if (lands_) path.partial.vcm = Partial::power(1 / camera_.density(camera.ray));
-  return along(tracer, camera.ray, camera.hit, path, camera.inside, sampler, sample);
+  return along(tracer, path, camera.hit, sample);
 }
 
-/// The radiance along the last ray that was cast, which ends at `hit`; `inside` is what it was in there. In
-/// media it may continue ten thousand times: no call for each.
-Color Bidirectional::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
-                           const Interfaces& inside, const Sampler& sampler, const Sample& sample) const {
-  std::unique_ptr<Scattering> after;
-  Color light = arrives(tracer, ray, hit, path, inside, sampler, sample, after);
-  if (!after) return light;
-  std::vector<std::unique_ptr<Scattering>> places;
-  while (after) {
-    const Scattering& from = *places.emplace_back(std::move(after));
-    light = arrives(tracer, from.ray, from.hit, from.path, from.inside, from.sampler, sample, after);
-  }
-  for (; !places.empty(); places.pop_back()) {
-    Scattering& at = *places.back();
-    at.sum.add(at.factor * allowedPart(tracer, at.path.weight * light), light, at.how,
-               ChanceTerm{at.density, 0, 1});
-    at.sum.draw(at.ink);
-    light = at.sum.radiance(at.passed);
-  }
-  return light;
+/// The radiance along the ray of the path, which was cast last and ends at `hit`.
+Color Bidirectional::along(Tracer& tracer, Path& path, const std::optional<Hit>& hit,
+                           const Sample& sample) const {
+  return walk(tracer, path, hit, [&](const std::optional<Hit>& met, Turns& turns) {
+    return arrive(tracer, path, met, turns, sample);
+  });
 }
 
-/// The same up to where a medium scatters it to `after`.
-Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, Path path,
-                             const Interfaces& inside, const Sampler& sampler, const Sample& sample,
-                             std::unique_ptr<Scattering>& after) const {
+/// Joins the place where the path arrives with all others, and turns the path; or ends it.
+std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std::optional<Hit>& hit,
+                                           Turns& turns, const Sample& sample) const {
   const World& world = tracer.world();
+  const Ray& ray = path.ray;
   const int t = path.t();
   // A light that was asked, or comes by paths from it, is not seen besides.
   const bool brought = path.asked || path.fromLights;
   const auto lamp = brought || path.within ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
   const bool mostOften = path.counts.scatterings > 0 && path.counts.scatterings >= mostScattered_;
-  const bool onlyShines = path.counts.surfaces > depth_ || mostOften;  // is it sent for
+  const bool last = path.counts.surfaces > depth_ || mostOften;  // it is sent for what shines
+  const auto shines = [&] { return share(0, t, 0, sample); };    // what no other way finds
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
-    Sampler numbers = sampler.branch(Branch::medium);
-    media = throughMedia(tracer, ray, end, inside, onlyShines ? 0 : 1, path.weight, numbers.branch(0));
+    Sampler numbers = path.numbers.branch(Branch::medium);
+    media = throughMedia(tracer, ray, end, path.inside, last ? 0 : 1, path.weight, numbers.branch(0));
     if (const auto where = placeByChance(*media, path.weight, numbers.next()))
-      return scattered(tracer, ray, *media, *where, path, inside, sampler, sample, after);
+      return scatter(tracer, path, *media, *where, turns, sample);
     path.weight *= media->passes;
+    media->glows *= Color(shines());
   }
-  Gather sum(tracer, path.counts.all());
-  const auto shines = [&] { return share(0, t, 0, sample); };  // what no other way finds
-  const auto seeMedia = [&] {
-    if (media) media->glows *= Color(shines());
-    if (media) coverWithMedia(sum, *media);
-    sum.draw(path.ink);
-  };
+  Turn& turn = turns.push(tracer, path.counts.all(), path.ink);
+  turn.media = std::move(media);
+  Gather& sum = turn.sum;
   /// s = 0: the emitter there was hit with the densities of being asked for and of having started there.
   const auto met = [&](Term::Kind kind, const Color& light, Real asked, Real started) {
     const Partial& p = path.partial;
@@ -140,22 +123,23 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
     sum.addWay(kind, Color(counts), light, ConnectionTerm{0, t, counts});
   };
   if (lamp) {
+    turn.passed = path.inside.passed(end);
     sum.addWay(Term::Kind::emissive, Color(shines()), lamp->seen.color, ConnectionTerm{0, t, shines()});
     sum.stop(MetLight{lamp->light, lamp->seen.t});
-    seeMedia();
-    return sum.radiance(inside.passed(lamp->seen.t));
+    return turns.end();
   }
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))  // parallel light starts no path in a medium
       met(Term::Kind::background, world.outside().view(ray, path.kind).color, lamps_.density(ray),
           path.fromMedium ? 0 : starts_.ofSky(ray.origin, ray.direction));
-    seeMedia();
-    return sum.radiance();
+    return turns.end();
   }
-  Footprint footprint;  // null where none is wanted
-  if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
-  Interaction at(tracer, ray, *hit, footprint.get(), inside, sample.shift);
-  std::optional<SubsurfaceBsdf> body;
+  if (!path.within) turn.passed = path.inside.passed(end);
+  Footprint footprint;
+  if (const Differentials* differentials = path.footprint.get())
+    footprint = arrivedAt(*hit, *differentials, ray.direction);
+  Interaction at(tracer, ray, *hit, footprint.get(), path.inside, sample.shift);
+  std::unique_ptr<const SubsurfaceBsdf> body;
   if (path.within)
     at.letIn();
   else if (world.hasSubsurface())
@@ -170,131 +154,117 @@ Color Bidirectional::arrives(Tracer& tracer, const Ray& ray, const std::optional
   if (!path.within && !isBlack(at.material.emissive))
     met(Term::Kind::emissive, at.material.emissive, lamps_.density(ray.origin, *hit) * cosine / distance2,
         starts_.ofLamp(*hit) * cosine);
-  const auto throughMedium = [&] {
-    seeMedia();
-    return sum.radiance(path.within ? Color(1) : inside.passed(hit->t));
-  };
-  if (onlyShines) {
+  if (last) {
     sum.stop(DepthLimit{RayKind::bounce, mostOften ? mostScattered_ : depth_});
-    return throughMedium();
+    return turns.end();
   }
-  joinAll(sum, place, path, path.counts + Counts{1, 0}, Color(1), sampler, sample);
+  const Counts counts = path.counts + Counts{1, 0};
+  joinAll(sum, place, path, counts, Color(1), path.numbers, sample);
 
-  // Where light went in that comes out here is the same place of the path.
+  // Where light went in that comes out here is the same place of the path: of what is seen first several
+  // such places, else perhaps one.
   const auto throughBody = [&](std::uint32_t n, Real part) {
-    const Sampler own = sampler.branch(Branch::bdptBody).branch(n);
+    const Sampler own = path.numbers.branch(Branch::bdptBody).branch(n);
     const auto in = entrance(at, *body, path.weight, own.branch(0));
     if (!in) return;
     const Color factor = in->weight * part;
-    Path onto{RayKind::refraction, path.counts, path.weight * factor};
-    onto.within = true;
-    sum.add(factor, along(tracer, in->ray, in->hit, onto, inside, own.branch(1), sample), in->how);
+    Path within{{in->ray, path.inside, own.branch(1), RayKind::refraction}};
+    within.counts = path.counts;
+    within.weight = path.weight * factor;
+    within.within = true;
+    sum.add(factor, along(tracer, within, in->hit, sample), in->how);
   };
-  const bool both =
-      body && path.counts.surfaces == 0;  // what is seen first is followed into the body besides
-  const int places = both ? tracer.settings().subsurfaceSamples : 0;
-  for (int n = 0; n < places; ++n) throughBody(static_cast<std::uint32_t>(n), 1.0 / places);
   std::optional<Real> intoBody;
-  if (body) intoBody = both ? 0 : maxComponent(body->albedo) * maxComponent(body->passes(at.cosine));
+  if (body) {
+    const bool many = path.counts.surfaces == 0;
+    const int places = many ? tracer.settings().subsurfaceSamples : 0;
+    for (int n = 0; n < places; ++n) throughBody(static_cast<std::uint32_t>(n), 1.0 / places);
+    intoBody = many ? 0 : maxComponent(body->albedo) * maxComponent(body->passes(at.cosine));
+  }
   const Onward onward(at, sample.spectrum, intoBody);
-  Sampler numbers = sampler.branch(Branch::choice);
+  Sampler numbers = path.numbers.branch(Branch::choice);
   const Real choice = numbers.next();
-  if (const Real likely = onward.goesIntoBody(choice); likely > 0) throughBody(0, 1 / likely);
-  if (sample.ways.camera == t || onward.goesIntoBody(choice) > 0) return throughMedium();
+  if (const Real likely = onward.goesIntoBody(choice); likely > 0) {
+    throughBody(0, 1 / likely);
+    return turns.end();
+  }
+  if (sample.ways.camera == t) return turns.end();
 
-  const auto next = onward.choose(choice, sampler.branch(Branch::lobe));
+  const auto next = onward.choose(choice, lobeNumbers(path.numbers.branch(Branch::lobe)));
   if (!next) {
     if (onward.totallyReflected(choice)) sum.stop(TotalInternalReflection{});
-    return throughMedium();
+    return turns.end();
   }
-  const bool splits = inside.wavelength == 0 && next->there.wavelength != 0;
-  const Color weight = splits ? next->weight * onward.response() : next->weight;
+  const RayKind kind = next->kind;
+  const bool bounces = kind == RayKind::bounce;
+  const Color weight = kind == RayKind::refraction ? next->weight * onward.response() : next->weight;
   const Real most = maxComponent(path.weight * weight);
   const Real goes = path.counts.all() < kSurely ? 1 : std::min(1.0, most);
-  if (path.counts.surfaces >= depth_ && next->kind != RayKind::bounce) {
-    sum.stop(DepthLimit{next->kind, depth_});
+  if (path.counts.surfaces >= depth_ && !bounces) {
+    sum.stop(DepthLimit{kind, depth_});
   } else if (!(most > 0)) {
-    sum.stop(BelowThreshold{next->kind, 0, 0});
+    sum.stop(BelowThreshold{kind, 0, 0});
   } else if (numbers.next() >= goes) {
-    sum.stop(Roulette{next->kind, goes});
+    sum.stop(Roulette{kind, goes});
   } else {
     const Vec3 from = -ray.direction, to = next->direction;
-    const bool bounces = next->kind == RayKind::bounce;
-    Path onto{next->kind, path.counts + Counts{1, 0}, path.weight * weight * (1 / goes), path.partial};
-    onto.fromLights = path.fromLights || (bounces && comesFromLights(path));
-    onto.asked =
-        bounces || (next->kind == RayKind::refraction && path.asked && tracer.lightPasses(at.bsdf()));
-    Footprint widened;
-    if (next->kind == RayKind::reflection)
-      widened = mirroredAt(world, *hit, footprint.get(), ray.direction, at.normal);
-    else if (next->kind == RayKind::refraction)
-      widened = refractedAt(world, *hit, footprint.get(), ray.direction, to, at.normal, next->ratio);
-    onto.differentials = widened.get();
+    turn.factor = weight * (1 / goes);
+    turn.weight = path.weight * turn.factor;
+    turn.density = next->density;
+    path.fromLights = path.fromLights || (bounces && comesFromLights(path));
+    path.asked = bounces || (kind == RayKind::refraction && path.asked && tracer.lightPasses(at.bsdf()));
     if (next->density > 0)
-      onto.partial.leave(next->density, place.density(to, from), place.cosine(to));
+      path.partial.leave(next->density, place.density(to, from), place.cosine(to));
     else
-      onto.partial.reflect(place.cosine(to));
-    const Ray leaving = bounces ? at.leaveToLight(to) : hit->leave(to);
-    Interfaces there = next->there;
-    const auto found = tracer.cast(leaving, next->kind, there, tracer.chance(sampler.branch(Branch::hole)));
-    const Color arriving = along(tracer, leaving, found, onto, there, sampler.branch(Branch::next), sample);
-    const Term::Kind term = bounces                             ? Term::Kind::bounce
-                            : next->kind == RayKind::reflection ? Term::Kind::reflection
-                                                                : Term::Kind::refraction;
-    const Color factor = weight * (1 / goes);
-    const Real part = bounces ? allowedPart(tracer, path.weight * factor * arriving) : 1;
-    sum.add(term, factor * part, arriving, ChanceTerm{next->density, 0, 1});
+      path.partial.reflect(place.cosine(to));
+    path.counts = counts;
+    path.weight = turn.weight;
+    path.fromMedium = path.within = false;
+    goOn(path, turn, at, footprint.get(), *next);
+    return {};
   }
-  return throughMedium();
+  return turns.end();
 }
 
-/// The radiance along the ray where a medium on its way scatters light to it; unknown where it continues.
-Color Bidirectional::scattered(Tracer& tracer, const Ray& ray, const MediumWay& way,
-                               const MediumWay::Place& where, Path path, const Interfaces& inside,
-                               const Sampler& sampler, const Sample& sample,
-                               std::unique_ptr<Scattering>& after) const {
-  after.reset(new Scattering{.sum = {tracer, path.counts.all()},
-                             .how = {MediumTerm::What::follows, where.object, where.t, where.forward},
-                             .passed = inside.passed(where.t),
-                             .ink = path.ink,
-                             .inside = inside,
-                             .sampler = sampler.branch(Branch::next)});
-  Gather& sum = after->sum;
-  const auto radiance = [&] {
-    sum.draw(path.ink);
-    const Color light = sum.radiance(after->passed);
-    after.reset();
-    return light;
-  };
+/// The same where a medium on the way scatters the path.
+std::optional<Color> Bidirectional::scatter(Tracer& tracer, Path& path, const MediumWay& way,
+                                            const MediumWay::Place& where, Turns& turns,
+                                            const Sample& sample) const {
+  Turn& turn = turns.push(tracer, path.counts.all(), path.ink);
+  turn.passed = path.inside.passed(where.t);
+  Gather& sum = turn.sum;
   if (!isBlack(way.glows)) {
     const Real counts = share(0, path.t(), 0, sample);
     sum.add(Color(counts), way.glows, MediumTerm{MediumTerm::What::glows});
   }
   path.partial.arrive(path.kind == RayKind::camera && camera_.parallel() ? 1 : where.t * where.t, 1);
-  const PathPlace place(ray, where, inside);
+  const PathPlace place(path.ray, where, path.inside);
   const Counts counts = path.counts + Counts{0, 1};
-  joinAll(sum, place, path, counts, where.weight, sampler, sample);
-  if (sample.ways.camera == path.t()) return radiance();
+  joinAll(sum, place, path, counts, where.weight, path.numbers, sample);
+  if (sample.ways.camera == path.t()) return turns.end();
 
-  Sampler numbers = sampler.branch(Branch::choice);
+  Sampler numbers = path.numbers.branch(Branch::choice);
   const Real most = maxComponent(path.weight * where.weight);
   const Real goes = path.counts.all() < kSurely ? 1 : std::min(1.0, most);
   if (!(most > 0) || !(numbers.next() < goes)) {
     sum.stop(Roulette{RayKind::bounce, goes});
-    return radiance();
+    return turns.end();
   }
   const auto [direction, density] =
-      samplePhase(ray.direction, where.forward, sampler.branch(Branch::lobe).next2());
-  after->factor = where.weight / goes;
-  after->density = density;
-  Path& onto = after->path;
-  onto = {RayKind::bounce, counts, path.weight * after->factor, path.partial};
-  onto.fromMedium = onto.asked = true;
-  onto.fromLights = path.fromLights || comesFromLights(path);
-  onto.partial.leave(density, density, 1);
-  after->ray = {place.point(), direction};
-  after->hit =
-      tracer.cast(after->ray, RayKind::bounce, after->inside, tracer.chance(sampler.branch(Branch::hole)));
+      samplePhase(path.ray.direction, where.forward, path.numbers.branch(Branch::lobe).next2());
+  turn.factor = where.weight / goes;
+  turn.weight = path.weight * turn.factor;
+  turn.density = density;
+  turn.scatters = MediumTerm{MediumTerm::What::follows, where.object, where.t, where.forward};
+  path.fromLights = path.fromLights || comesFromLights(path);
+  path.fromMedium = path.asked = true;
+  path.partial.leave(density, density, 1);
+  path.counts = counts;
+  path.weight = turn.weight;
+  path.kind = RayKind::bounce;
+  path.footprint = {};
+  path.ink = 0;
+  path.ray = {place.point(), direction};
   return {};
 }
 

@@ -44,6 +44,7 @@
 namespace trace {
 
 class PathPlace;
+class Turns;
 
 class Bidirectional : public Integrator {
  public:
@@ -60,7 +61,6 @@ class Bidirectional : public Integrator {
   struct Partial;
   struct Counts;
   struct Path;
-  struct Scattering;
   struct Sample;
   struct LightPlace;
   /// The vertex of a whole path next to the light.
@@ -78,14 +78,11 @@ class Bidirectional : public Integrator {
   bool comesFromLights(const Path& path) const;
 
   // The path from the camera: integrators/bdpt.cpp.
-  Color along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, const Path& path,
-              const Interfaces& inside, const Sampler& sampler, const Sample& sample) const;
-  Color arrives(Tracer& tracer, const Ray& ray, const std::optional<Hit>& hit, Path path,
-                const Interfaces& inside, const Sampler& sampler, const Sample& sample,
-                std::unique_ptr<Scattering>& after) const;
-  Color scattered(Tracer& tracer, const Ray& ray, const MediumWay& way, const MediumWay::Place& where,
-                  Path path, const Interfaces& inside, const Sampler& sampler, const Sample& sample,
-                  std::unique_ptr<Scattering>& after) const;
+  Color along(Tracer& tracer, Path& path, const std::optional<Hit>& hit, const Sample& sample) const;
+  std::optional<Color> arrive(Tracer& tracer, Path& path, const std::optional<Hit>& hit, Turns& turns,
+                              const Sample& sample) const;
+  std::optional<Color> scatter(Tracer& tracer, Path& path, const MediumWay& way,
+                               const MediumWay::Place& where, Turns& turns, const Sample& sample) const;
 
   // The one from a light: integrators/bdpt_light.cpp.
   struct Flight;

@@ -117,7 +117,8 @@ bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sam
   if (f.counts.surfaces > depth_ && !passes && !isThick(at.tracer)) return false;
   const Onward onward(at, sample.spectrum);
   Sampler choice = f.numbers.branch(Branch::choice);
-  const auto next = onward.choose(choice.next(), f.numbers.branch(Branch::lobe), true, place.lit);
+  const auto next =
+      onward.choose(choice.next(), lobeNumbers(f.numbers.branch(Branch::lobe)), true, place.lit);
   if (!next) return false;
   const Color& weight = next->weight;
   const Real keeps = maxComponent(f.power * weight) / maxComponent(f.power);
@@ -140,9 +141,9 @@ bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sam
       f.partial.reflect(cosine);
     if (f.counts.all() == 1 && !(next->density > 0)) f.last = Last::mirror;
   }
-  if (f.inside.wavelength == 0 && next->there.wavelength != 0) f.response = onward.response();
+  if (f.inside.wavelength == 0 && next->in(f.inside).wavelength != 0) f.response = onward.response();
   f.ray = next->kind == RayKind::bounce ? at.leaveToLight(to) : place.hit->leave(to);
-  f.inside = next->there;
+  if (next->behind) f.inside = *next->behind;
   return true;
 }
 

@@ -7,6 +7,7 @@
 
 #include "render/integrators/bdpt.h"
 #include "render/paths/path_place.h"
+#include "render/paths/walk.h"
 #include "shading/materials/subsurface.h"
 
 namespace trace {
@@ -49,33 +50,16 @@ struct Bidirectional::Counts {
 };
 
 /// Where a path from the camera is.
-struct Bidirectional::Path {
-  RayKind kind = RayKind::camera;
+struct Bidirectional::Path : Leg {
   Counts counts{};  ///< weights of the vertices before
   Color weight{1};  ///< weight of the ray's radiance in the sample
   Partial partial{};
-  const Differentials* differentials = nullptr;  ///< differentials of the ray, if footprints are needed
-  Real ink = 0;                                  ///< how much of it an outline covers
-  bool fromMedium = false;                       ///< it was scattered in a medium last
+  bool fromMedium = false;  ///< it was scattered in a medium last
   bool asked = false;       ///< it was scattered, and has hit since then only panes that shadow rays pass
   bool fromLights = false;  ///< paths from lights bring what mirrors and glass show it
   bool within = false;      ///< it runs in a body, from where light comes out
 
   int t() const { return counts.all() + 2; }  ///< number of the vertex where it arrives
-};
-
-/// A place where a medium scatters a path from the camera, until it is known what the ray from there brings.
-struct Bidirectional::Scattering {
-  Gather sum;
-  MediumTerm how;
-  Color factor{}, passed{};  ///< radiance of the continuation, and transmittance of the way to the eye
-  Real ink = 0, density = 0;
-  // The continuation of the path.
-  Ray ray{};
-  std::optional<Hit> hit{};
-  Path path{};
-  Interfaces inside{};
-  Sampler sampler;
 };
 
 /// A place of a path from a light.

@@ -8,7 +8,7 @@
 #include "render/integrators/cost.h"
 #include "render/integrators/normals.h"
 #include "render/integrators/occlusion.h"
-#include "render/integrators/path.h"
+#include "render/integrators/photon.h"
 #include "render/integrators/whitted.h"
 
 namespace trace {
@@ -21,7 +21,7 @@ std::unique_ptr<Integrator> make(const Settings&) {
 
 std::unique_ptr<Integrator> makeForChains(const Settings& settings) {
   if (settings.chains == Chains::bdpt) return std::make_unique<Bidirectional>(true);
-  return std::make_unique<PathTracer>(PathTracer::Light::bounced);
+  return std::make_unique<PathTracer>();
 }
 
 struct Maker {
@@ -31,11 +31,11 @@ struct Maker {
 /// In the order of the enum.
 constexpr std::array kMakers{
     Maker{IntegratorKind::whitted, make<Whitted>},
-    Maker{IntegratorKind::path, make<PathTracer, PathTracer::Light::bounced>},
-    Maker{IntegratorKind::direct, make<PathTracer, PathTracer::Light::straight>},
+    Maker{IntegratorKind::path, make<PathTracer>},
+    Maker{IntegratorKind::direct, make<PathTracer, false>},
     Maker{IntegratorKind::bdpt, make<Bidirectional>},
     Maker{IntegratorKind::mlt, makeForChains},
-    Maker{IntegratorKind::photon, make<PathTracer, PathTracer::Light::photons>},
+    Maker{IntegratorKind::photon, make<PhotonTracer>},
     Maker{IntegratorKind::occlusion, make<Occlusion>},
     Maker{IntegratorKind::normals, make<Normals>},
     Maker{IntegratorKind::cost, make<Cost>},

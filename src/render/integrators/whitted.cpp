@@ -79,7 +79,7 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
   Footprint footprint;  // none where none is wanted
   if (path.differentials) footprint = arrivedAt(*hit, *path.differentials, ray.direction);
   Interaction at(tracer, ray, *hit, footprint.get(), inside, path.spread);
-  std::optional<SubsurfaceBsdf> body;
+  std::unique_ptr<const SubsurfaceBsdf> body;
   if (world.hasSubsurface()) body = at.takeBody();
   sum.note(at.bsdf());
   sum.note(at.raised());

@@ -163,15 +163,10 @@ Real Lamps::Part::density(const Vec3& from, const Vec3& at) const {
     return 1 / (2 * kPi * sine2 / (1 + std::sqrt(1 - sine2)));
   }
   const auto rectangle = seen(from);
-  return rectangle ? 1 / rectangle->solidAngle() : densityByArea(from, at);
-}
-
-Real Lamps::Part::densityByArea(const Vec3& from, const Vec3& at) const {
+  if (rectangle) return 1 / rectangle->solidAngle();
   const Vec3 to = at - from;
-  const Real away2 = dot(to, to), away = std::sqrt(away2);
-  const Vec3 normal = cross(edgeA, edgeB);
-  const Real facing = std::abs(dot(to, normal)) / (away * length(normal));
-  return facing > 0 ? away2 / (facing * size) : 0;
+  const Real away2 = dot(to, to);
+  return densityByArea(to, away2, std::sqrt(away2));
 }
 
 std::optional<SphericalRectangle> Lamps::Part::seen(const Vec3& from) const {
@@ -216,9 +211,11 @@ std::optional<Lamps::Place> Lamps::choose(const Vec3& from, Real which, const Ve
   } else {
     const auto rectangle = part.seen(from);
     const Vec3 at = rectangle ? rectangle->place(u) : placeOn(part, u);
-    distance = length(at - from);
-    toLight = normalize(at - from);
-    density = rectangle ? 1 / rectangle->solidAngle() : part.densityByArea(from, at);
+    const Vec3 to = at - from;
+    const Real away2 = dot(to, to);
+    distance = std::sqrt(away2);
+    toLight = to / distance;
+    density = rectangle ? 1 / rectangle->solidAngle() : part.densityByArea(to, away2, distance);
   }
   density *= (1 - skyShare) * share;
   if (!(density > 0)) return {};

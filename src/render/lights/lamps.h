@@ -7,6 +7,7 @@
 // brightness varies or if portals show where it is visible.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -104,13 +105,18 @@ class Lamps {
     Real size;           ///< the area, or the radius; of a body, that of the ball around it
     Real share;          ///< share of all choices, where they are few
     std::size_t body{};  ///< which of the bodies
+    Vec3 normal = cross(edgeA, edgeB);
+    Real normalLength = length(normal);
     bool round() const { return kind == Kind::sphere || kind == Kind::body; }
     /// The density of the direction to `at`, which lies on the part, if the part is chosen; not of bodies.
     Real density(const Vec3& from, const Vec3& at) const;
     /// A rectangle as it is seen from there, where that differs from its area as seen from far away.
     std::optional<SphericalRectangle> seen(const Vec3& from) const;
-    /// The same per area.
-    Real densityByArea(const Vec3& from, const Vec3& at) const;
+    /// The same per area, for a way there of that length.
+    Real densityByArea(const Vec3& to, Real away2, Real away) const {
+      const Real facing = std::abs(dot(to, normal)) / (away * normalLength);
+      return facing > 0 ? away2 / (facing * size) : 0;
+    }
     LightReach reach(Real power) const;
   };
   /// `sides` of that area shine.

@@ -77,11 +77,11 @@ bool Interaction::sendsEvenly() const {
   return scatters(*bsdf_) && !isGlossy(*bsdf_) && !bsdf_->is<MarschnerBsdf>();
 }
 
-std::optional<SubsurfaceBsdf> Interaction::takeBody() {
+std::unique_ptr<const SubsurfaceBsdf> Interaction::takeBody() {
   const auto* whole = bsdf_->as<SubsurfaceBsdf>();
   if (!whole || !spreads(whole->said)) return {};
-  const SubsurfaceBsdf body = *whole;
-  bsdf_.replace(body.only(SubsurfaceBsdf::Part::surface));
+  auto body = std::make_unique<const SubsurfaceBsdf>(*whole);
+  bsdf_.replace(body->only(SubsurfaceBsdf::Part::surface));
   return body;
 }
 
@@ -256,10 +256,11 @@ Real Interaction::mirroredShare(const SpectralShare& share) const {
   return fresnel_ == Fresnel::schlick ? schlick(cosine, at.before, at.behind)
                                       : fresnelDielectric(cosine, at.before, at.behind);
 }
-Color Interaction::mirror(bool follow) const {
-  if (follow && isGlossy(*bsdf_)) return Color(transmits ? 0 : coat);
+
+Color Interaction::mirrorOfGlass(bool follow) const {
+  if (follow && isGlossy(*bsdf_)) return Color(0);
   Color mirror(coat);
-  if (fresnel_ == Fresnel::constant || !transmits)
+  if (fresnel_ == Fresnel::constant)
     return mirror + (follow ? exactMirrorWeight(*bsdf_, cosine) : mirrorWeight(*bsdf_, cosine)) * (1 - coat);
   for (const SpectralShare& share : shares())
     mirror += share.weight * (mirroredShare(share) * material.sharp);

@@ -3,6 +3,7 @@
 // integrators.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -30,7 +31,7 @@ class Interaction {
   const Bsdf& bsdf() const { return *bsdf_; }
   /// Takes what goes into the body out of bsdf(), and gives the whole: of a body in which light spreads. One
   /// so large that the light's way is lost in rounding is not, there it comes out where it goes in.
-  std::optional<SubsurfaceBsdf> takeBody();
+  std::unique_ptr<const SubsurfaceBsdf> takeBody();
   /// The place is one where light goes in that comes out elsewhere: bsdf() becomes how much.
   void letIn();
   /// Above 0 if the surface's true normal is on the side where the ray comes from.
@@ -92,7 +93,12 @@ class Interaction {
   }
   /// The weight of the mirrored ray, for all shares together. If rays `follow` lobes, without what it stands
   /// for in place of these.
-  Color mirror(bool follow) const;
+  Color mirror(bool follow) const {
+    if (transmits) return mirrorOfGlass(follow);
+    if (follow && isGlossy(*bsdf_)) return Color(coat);
+    return Color(coat) +
+           (follow ? exactMirrorWeight(*bsdf_, cosine) : mirrorWeight(*bsdf_, cosine)) * (1 - coat);
+  }
   /// The weight of the refracted ray, without that of the share.
   Color filter(const SpectralShare& share) const;
   /// Where it goes, and how the index changes there; nothing at total reflection.
@@ -123,6 +129,7 @@ class Interaction {
   bool spreads(const Subsurface& said) const;
   bool continues(const Vec3& to, Real height) const;
   Real mirroredShare(const SpectralShare& share) const;
+  Color mirrorOfGlass(bool follow) const;
   [[gnu::noinline]] void raise(bool turned);
 
   /// The medium inside the object, and both sides of its surface.

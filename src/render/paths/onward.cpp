@@ -47,52 +47,28 @@ Color scatteredOn(const Interaction& at, const Vec3& toEye, const Vec3& toLight,
   return arrives > 0 ? scattered(at, toEye, toLight, lit) * (std::abs(dot(toEye, flat)) / arrives) : Color(0);
 }
 
-Onward::Onward(const Interaction& at, Real spectrum, std::optional<Real> intoBody) : at_(at) {
-  const bool glossy = isGlossy(at.bsdf());
-  const auto shares = glossy ? at.shares().first(0) : at.shares();
-  if (!shares.empty()) {
-    const auto count = static_cast<Real>(shares.size());
-    share_ = &shares[static_cast<std::size_t>(spectrum * count)];
-    through_ = at.filter(*share_);
-    response_ = share_->weight * count;
-  }
-  mirror_ = at.mirror(true);
-  const Real mirrors = maxComponent(mirror_), passes = maxComponent(through_);
-  constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
-  const Real likely = intoBody ? kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
-  const Real lobe = scatters(at.bsdf()) ? likely : 0;
-  const Real all = lobe + mirrors + passes + intoBody.value_or(0);
-  if (!(all > 0)) return;
-  toLobe_ = lobe / all;
-  toMirror_ = mirrors / all;
-  toBody_ = intoBody.value_or(0) / all;
-  toBehind_ = passes / all;
-}
-
 bool Onward::totallyReflected(Real choice) const {
   return choice >= toLobe_ + toMirror_ + toBody_ && toBehind_ > 0 && !at_.through(*share_);
 }
 
-std::optional<Onward::Ray> Onward::choose(Real choice, Sampler lobe, bool fromLight, bool lit) const {
-  if (choice < toLobe_) {
-    const Vec3 from = -at_.ray.direction;
-    const Real which = lobe.next();
-    const auto drawn = sample(at_.bsdf(), at_.frame, from, which, lobe.next2(), Transport::importance);
-    if (!drawn) return {};
-    const Vec3& to = drawn->toLight;
-    const Color light = fromLight ? scatteredOn(at_, to, from, lit) : scattered(at_, from, to);
-    if (isBlack(light)) return {};
-    const bool inward = dot(to, at_.normal) < 0;
-    return Ray{RayKind::bounce, to, light / (drawn->density * toLobe_),
-               drawn->density,  1,  inward && at_.transmits ? at_.behind() : at_.inside};
-  }
-  const bool mirrors = choice < toLobe_ + toMirror_;
-  if (!mirrors && goesIntoBody(choice) > 0) return {};
-  const RayKind kind = mirrors ? RayKind::reflection : RayKind::refraction;
-  return only(kind, fromLight, chance(kind));
+std::optional<Onward::Ray> Onward::lightIntoLobe(const LobeNumbers& numbers, bool lit) const {
+  const Vec3 from = -at_.ray.direction;
+  const auto drawn = sample(at_.bsdf(), at_.frame, from, numbers.which, numbers.where, Transport::importance);
+  if (!drawn) return {};
+  const Color light = scatteredOn(at_, drawn->toLight, from, lit);
+  if (isBlack(light)) return {};
+  return intoLobe(*drawn, light / (drawn->density * toLobe_));
 }
 
-std::optional<Onward::Ray> Onward::only(RayKind kind, bool fromLight, Real likely) const {
+std::optional<Onward::Ray> Onward::ofOne(Real choice, bool fromLight) const {
+  const bool mirrors = choice < toLobe_ + toMirror_;
+  if (!mirrors && goesIntoBody(choice) > 0) return {};
+  auto ray = only(mirrors ? RayKind::reflection : RayKind::refraction, fromLight);
+  if (ray) ray->weight = mirrors ? ray->weight / toMirror_ : ray->weight * (all_ / maxComponent(through_));
+  return ray;
+}
+
+std::optional<Onward::Ray> Onward::only(RayKind kind, bool fromLight) const {
   if (!(chance(kind) > 0)) return {};
   const Vec3 from = -at_.ray.direction;
   const Vec3& flat = at_.hit.surface.normal;
@@ -104,15 +80,15 @@ std::optional<Onward::Ray> Onward::only(RayKind kind, bool fromLight, Real likel
   };
   if (kind == RayKind::reflection) {
     const Vec3 to = mirrored(at_.ray.direction, at_.normal);
-    return Ray{kind, to, mirror_ * (narrowed(to) / likely), 0, 1, at_.inside};
+    return Ray{kind, to, mirror_ * narrowed(to)};
   }
   const auto to = at_.through(*share_);
   if (!to) return {};
   // Along paths from the camera radiance over the square of the index is kept, which light is not.
   const Real ratio = at_.ratio(*share_), counts = fromLight ? ratio * ratio * narrowed(*to) : 1;
-  Interfaces behind = at_.behind();
-  behind.wavelength = share_->nanometres;
-  return Ray{kind, *to, through_ * (counts / likely), 0, ratio, std::move(behind)};
+  Ray ray{kind, *to, through_ * counts, 0, ratio, at_.behind()};
+  ray.behind->wavelength = share_->nanometres;
+  return ray;
 }
 
 }  // namespace trace

@@ -2,7 +2,9 @@
 // one is chosen at random. For paths from the camera and from lights.
 #pragma once
 
+#include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "render/paths/interaction.h"
 
@@ -22,12 +24,19 @@ Color scatteredOn(const Interaction& at, const Vec3& toEye, const Vec3& toLight,
 /// a path from a light may have hit it on the other.
 Frame frameToward(const Interaction& at, const Vec3& toEye);
 
+/// The numbers that choose a direction in a lobe, from 0 up to 1.
+struct LobeNumbers {
+  Real which;
+  Vec2 where;
+};
+
 class Onward {
  public:
   /// `spectrum` from 0 up to 1 chooses the wavelength where the surface begins to split light: of all
   /// surfaces of a sample the same. `intoBody` says how much a way through a body in which light spreads is
-  /// worth, which is one more to choose; the surface's own lobe is then what is left of its light.
-  Onward(const Interaction& at, Real spectrum, std::optional<Real> intoBody = {});
+  /// worth, which is one more to choose; the surface's own lobe is then what is left of its light. Without
+  /// `lobe` no ray goes there.
+  Onward(const Interaction& at, Real spectrum, std::optional<Real> intoBody = {}, bool lobe = true);
 
   /// A ray that continues.
   struct Ray {
@@ -36,13 +45,19 @@ class Onward {
     Color weight;      ///< over the chance of the choice
     Real density = 0;  ///< density of a direction in the lobe, per solid angle; 0: there was one only
     Real ratio = 1;    ///< ratio of the indices before and behind
-    Interfaces there;
+    std::optional<Interfaces> behind{};  ///< what it runs in, if it goes to the other side
+    /// What it runs in, where the ray that led here ran in `before`.
+    const Interfaces& in(const Interfaces& before) const { return behind ? *behind : before; }
   };
   /// Chooses where a path from the camera continues, or one `fromLight`, which carries light itself; `lit`:
-  /// light that Whitted's equation knows.
-  std::optional<Ray> choose(Real choice, Sampler lobe, bool fromLight = false, bool lit = false) const;
-  /// The mirrored or the refracted ray, if there is one, chosen with that probability.
-  std::optional<Ray> only(RayKind kind, bool fromLight = false, Real likely = 1) const;
+  /// light that Whitted's equation knows. draw() gives LobeNumbers, where they are wanted.
+  template <class Draw>
+  std::optional<Ray> choose(Real choice, const Draw& draw, bool fromLight = false, bool lit = false) const {
+    if (choice < toLobe_) return fromLight ? lightIntoLobe(draw(), lit) : intoLobe(draw());
+    return ofOne(choice, fromLight);
+  }
+  /// The mirrored or the refracted ray, if there is one, without the chance of its choice.
+  std::optional<Ray> only(RayKind kind, bool fromLight = false) const;
   /// How likely choose() continues by such a ray: bounce, reflection or refraction.
   Real chance(RayKind kind) const {
     return kind == RayKind::bounce ? toLobe_ : kind == RayKind::reflection ? toMirror_ : toBehind_;
@@ -57,10 +72,69 @@ class Onward {
   const Color& response() const { return response_; }
 
  private:
+  std::optional<Ray> intoLobe(const LobeNumbers& numbers) const;
+  std::optional<Ray> lightIntoLobe(const LobeNumbers& numbers, bool lit) const;
+  std::optional<Ray> ofOne(Real choice, bool fromLight) const;
+  std::optional<Ray> intoLobe(const BsdfSample& drawn, const Color& weight) const;
+
   const Interaction& at_;
   const SpectralShare* share_ = nullptr;
   Color response_{1}, mirror_, through_;
   Real toLobe_ = 0, toMirror_ = 0, toBody_ = 0, toBehind_ = 0;
+  Real all_ = 0;  ///< the chances, before they are made to sum up to 1
 };
+
+inline Onward::Onward(const Interaction& at, Real spectrum, std::optional<Real> intoBody, bool lobe)
+    : at_(at) {
+  const bool glossy = isGlossy(at.bsdf());
+  const auto shares = glossy ? at.shares().first(0) : at.shares();
+  if (!shares.empty()) {
+    const auto count = static_cast<Real>(shares.size());
+    share_ = &shares[static_cast<std::size_t>(spectrum * count)];
+    through_ = at.filter(*share_);
+    response_ = share_->weight * count;
+  }
+  mirror_ = at.mirror(true);
+  const Real mirrors = maxComponent(mirror_), passes = maxComponent(through_);
+  constexpr Real kLeastLobe = 0.2;  // what is scattered is not known beforehand
+  const Real likely = intoBody ? kLeastLobe : std::max(kLeastLobe, 1 - mirrors - passes);
+  const Real scattered = lobe && scatters(at.bsdf()) ? likely : 0;
+  all_ = scattered + mirrors + passes + intoBody.value_or(0);
+  if (!(all_ > 0)) return;
+  toLobe_ = scattered / all_;
+  toMirror_ = mirrors / all_;
+  toBody_ = intoBody.value_or(0) / all_;
+  toBehind_ = passes / all_;
+}
+
+inline std::optional<Onward::Ray> Onward::intoLobe(const BsdfSample& drawn, const Color& weight) const {
+  std::optional<Ray> ray(std::in_place, RayKind::bounce, drawn.toLight, weight, drawn.density);
+  if (at_.transmits && dot(drawn.toLight, at_.normal) < 0) ray->behind = at_.behind();
+  return ray;
+}
+
+inline std::optional<Onward::Ray> Onward::intoLobe(const LobeNumbers& numbers) const {
+  const auto drawn =
+      sample(at_.bsdf(), at_.frame, -at_.ray.direction, numbers.which, numbers.where, Transport::importance);
+  if (!drawn || isBlack(drawn->weight)) return {};
+  if (!(dot(drawn->toLight, at_.normal) < 0) && at_.isAstray(drawn->toLight)) return {};
+  return intoLobe(*drawn, drawn->weight * ((1 - at_.coat) / toLobe_));
+}
+
+/// Two draws of a sampler of its own.
+inline auto lobeNumbers(Sampler numbers) {
+  return [numbers] {
+    Sampler own = numbers;
+    const Real which = own.next();
+    return LobeNumbers{which, own.next2()};
+  };
+}
+
+/// The term of a ray's radiance that such a ray brings.
+constexpr Term::Kind termOf(RayKind kind) {
+  return kind == RayKind::bounce       ? Term::Kind::bounce
+         : kind == RayKind::reflection ? Term::Kind::reflection
+                                       : Term::Kind::refraction;
+}
 
 }  // namespace trace

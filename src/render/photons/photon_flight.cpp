@@ -135,7 +135,7 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
     const bool linked = !f.straight || !f.light || world_.lights(*f.light, f.hit->object);
     Interaction at(tracer_, f.ray, *f.hit, nullptr, f.inside, chance());
     const bool scattersIt = scatters(at.bsdf());
-    std::optional<SubsurfaceBsdf> body;
+    std::unique_ptr<const SubsurfaceBsdf> body;
     if (world_.hasSubsurface()) body = at.takeBody();
     if (scattersIt && linked && rests(f) && counts(f.scatterings, f.mediumFirst)) {
       if (const auto place = texels_.place(world_, f.ray, *f.hit))
@@ -144,7 +144,7 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
         landed.photons.push_back({f.hit->surface.point, f.ray.direction, at.trueNormal(), f.power,
                                   f.offSurface ? f.hit->t : kInfinity});
     }
-    if (f.bounces - f.panes >= settings_.depth || !goOn(f, at, scattersIt, body)) return;
+    if (f.bounces - f.panes >= settings_.depth || !goOn(f, at, scattersIt, body.get())) return;
     if (!linked && !f.straight) return;
     const bool pane = f.straight && f.light && !f.gathered;
     f.parallel = f.parallel && pane;
@@ -156,8 +156,7 @@ void PhotonEmitter::fly(Flight& f, LandedPhotons& landed) {
 }
 
 /// One ray continues from the surface, or none: what it brings stays about the same. False if it ends.
-bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt,
-                         const std::optional<SubsurfaceBsdf>& body) {
+bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt, const SubsurfaceBsdf* body) {
   const auto shares = at.shares();
   const SpectralShare* share =
       shares.empty() ? nullptr

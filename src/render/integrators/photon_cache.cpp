@@ -1,12 +1,13 @@
-// The irradiance cache of PathTracer: which places it has, and what they see.
+// The irradiance cache of PhotonTracer: which places it has, and what they see.
 //
 // Pixels are looked at from coarse to fine, always as many at once. Those whose place no record tells of
 // become records, worked out side by side and added in their order: so the cache is the same for any number
 // of threads.
 #include <algorithm>
+#include <limits>
 
 #include "base/budget.h"
-#include "render/integrators/path_state.h"
+#include "render/integrators/photon.h"
 #include "render/paths/interaction.h"
 #include "render/samples/hashed_numbers.h"
 #include "render/samples/pixel.h"
@@ -28,7 +29,7 @@ std::optional<Color> evenShare(const Bsdf& bsdf) {
 
 }  // namespace
 
-bool PathTracer::addCached(Gather& sum, const Interaction& at) const {
+bool PhotonTracer::addCached(Gather& sum, const Interaction& at) const {
   if (cache_.empty()) return false;
   const auto share = evenShare(at.bsdf());
   if (!share || !(at.cosine > 0)) return false;
@@ -39,12 +40,12 @@ bool PathTracer::addCached(Gather& sum, const Interaction& at) const {
 }
 
 /// One worker.
-class PathTracer::CacheFiller {
+class PhotonTracer::CacheFiller {
  public:
   struct Pixel {
     int x, y;
   };
-  CacheFiller(const PathTracer& path, const World& world, const Settings& settings, const Size& size)
+  CacheFiller(const PhotonTracer& path, const World& world, const Settings& settings, const Size& size)
       : path_(path),
         settings_(settings),
         pixels_(world, path, settings, size),
@@ -104,29 +105,28 @@ class PathTracer::CacheFiller {
     for (int n = 0; n < cells_.count(); ++n) {
       const Sampler own = numbers.branch(static_cast<std::uint32_t>(n));
       const Vec3 direction = basis.toWorld(cells_.direction(n, own.branch(0).next2()));
-      const Ray ray = at.leaveToLight(direction);
-      Path path;
-      path.kind = RayKind::bounce;
+      Path path{{at.leaveToLight(direction), at.inside, own.branch(2), RayKind::bounce}};
       path.depth = 1;
-      path.gathers = path.forCache = path.asked = path.bounced = true;
-      path.maps = &path_.maps_[static_cast<std::size_t>(n) % path_.maps_.size()];
-      Interfaces there = at.inside;
-      const auto met = tracer.cast(ray, RayKind::bounce, there, tracer.chance(own.branch(1)));
+      path.density = std::numeric_limits<Real>::min();  // lamps are asked for, and never met
+      path.asked = true;
+      path.told = {
+          .maps = static_cast<std::size_t>(n) % path_.maps_.size(), .gathers = true, .bounced = true};
+      const auto met = tracer.cast(path.ray, RayKind::bounce, path.inside, tracer.chance(own.branch(1)));
       const bool astray = !at.raised() && dot(direction, at.hit.surface.normal) * at.facing() < 0;
-      const Color light = astray ? Color(0) : path_.along(tracer, ray, met, path, there, own.branch(2));
+      const Color light = astray ? Color(0) : path_.along(tracer, path, met);
       seen[static_cast<std::size_t>(n)] = {isFinite(light) ? light : Color(0), met ? met->t : kInfinity};
     }
     return cells_.record(at.hit.surface.point, basis.x, basis.y, basis.z, seen);
   }
 
-  const PathTracer& path_;
+  const PhotonTracer& path_;
   const Settings& settings_;
   PixelTracer pixels_;
   HemisphereCells cells_;
   SampleRules rules_{settings_, Size{1, 1}};
 };
 
-void PathTracer::fillCache(const World& world, const Settings& settings, Job& job) {
+void PhotonTracer::fillCache(const World& world, const Settings& settings, Job& job) {
   const Box3& box = world.bounds();
   if (box.empty() || !(maxComponent(box.size()) > 0) || job.cancel) return;
   cache_ = IrradianceCache(box, settings.irradianceCache);

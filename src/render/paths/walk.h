@@ -1,0 +1,93 @@
+// The walk of a path from the camera, turn by turn, and back again with the light that its last ray found:
+//
+//   L = gathered at the turn + factor * L of the rest
+//
+// One loop for path, photon and bdpt: in a medium a path may turn ten thousand times.
+#pragma once
+
+#include <optional>
+
+#include "base/inline_stack.h"
+#include "render/media/media.h"
+#include "render/paths/onward.h"
+#include "render/rays/firefly.h"
+#include "render/rays/gather.h"
+#include "render/samples/sampler.h"
+#include "render/world/footprint.h"
+
+namespace trace {
+
+/// The ray by which a path goes on. What else a path carries, integrators add.
+struct Leg {
+  Ray ray;
+  Interfaces inside;  ///< what it starts in, and is in where it arrives
+  Sampler numbers;    ///< of the vertex that it comes from, and of that where it arrives
+  RayKind kind = RayKind::camera;
+  Footprint footprint{};  ///< none where none is wanted
+  Real ink = 0;           ///< how much of it an outline covers
+};
+
+/// A vertex of a path, until it is known what its rest brings.
+struct Turn {
+  Turn(Tracer& tracer, int depth, Real ink_) : sum(tracer, depth), ink(ink_) {}
+
+  Gather sum;
+  // The way that led here.
+  Real ink;
+  std::optional<MediumWay> media{};  ///< it is covered by
+  Color passed{1};                   ///< transmittance of what it runs in
+  // The rest of the path.
+  Color factor{}, weight{};  ///< its share in this sum, and in the sample
+  Real density = 0;          ///< density of its direction; 0 where there was one only
+  Term::Kind kind = Term::Kind::bounce;
+  bool limited = true;                   ///< Settings::fireflyLimit holds for it
+  std::optional<MediumTerm> scatters{};  ///< a medium does, not a surface
+
+  /// Adds what the rest brings.
+  void add(const Color& light) {
+    const Color counts = factor * (limited ? allowedPart(sum.tracer(), weight * light) : 1);
+    const ChanceTerm chance{density, 0, 1};
+    scatters ? sum.add(counts, light, *scatters, chance) : sum.add(kind, counts, light, chance);
+  }
+  /// The radiance along the ray that led here.
+  Color radiance() {
+    if (media) coverWithMedia(sum, *media);
+    sum.draw(ink);
+    return sum.radiance(passed);
+  }
+};
+
+class Turns : public InlineStack<Turn, 8> {
+ public:
+  /// The path ends at the last turn: the radiance along the ray that led there.
+  Color end() {
+    const Color light = top().radiance();
+    pop();
+    return light;
+  }
+};
+
+/// The path goes on by that ray, which `leg` becomes; `arrived` is its footprint at the turn, if there is
+/// one.
+void goOn(Leg& leg, Turn& turn, const Interaction& at, const Differentials* arrived, const Onward::Ray& next);
+
+/// The radiance along the first leg, whose ray was cast last and ends at `hit`. arrive(hit, turns) is called
+/// where a leg ends: it pushes a turn and makes `leg` the next, or gives the light of a path that ends there.
+template <class Arrive>
+Color walk(Tracer& tracer, Leg& leg, const std::optional<Hit>& first, const Arrive& arrive) {
+  Turns turns;
+  std::optional<Color> light = arrive(first, turns);
+  while (!light) {
+    const Real chance = tracer.chance(leg.numbers.branch(Branch::hole));
+    const std::optional<Hit> hit = tracer.cast(leg.ray, leg.kind, leg.inside, chance);
+    leg.numbers = leg.numbers.branch(Branch::next);
+    light = arrive(hit, turns);
+  }
+  while (!turns.empty()) {
+    turns.top().add(*light);
+    light = turns.end();
+  }
+  return *light;
+}
+
+}  // namespace trace
