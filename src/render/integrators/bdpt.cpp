@@ -100,7 +100,7 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
   const auto lamp = brought || path.within ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
   const bool mostOften = path.counts.scatterings > 0 && path.counts.scatterings >= mostScattered_;
-  const bool last = path.counts.surfaces > depth_ || mostOften;  // it is sent for what shines
+  const bool last = path.counts.surfaces > depth_ || mostOften;  // it looks for emitters only
   const auto shines = [&] { return share(0, t, 0, sample); };    // what no other way finds
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
@@ -226,7 +226,7 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
   return turns.end();
 }
 
-/// The same where a medium on the way scatters the path.
+/// Joins and turns the path where a medium on the way scatters it.
 std::optional<Color> Bidirectional::scatter(Tracer& tracer, Path& path, const MediumWay& way,
                                             const MediumWay::Place& where, Turns& turns,
                                             const Sample& sample) const {

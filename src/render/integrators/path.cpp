@@ -56,7 +56,7 @@ std::optional<Color> PathTracer::arrive(Tracer& tracer, Path& path, const std::o
   const auto lamp =
       path.asked || path.within || known ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
-  const bool last = path.depth > depth_ || path.scattered >= mostScattered_;  // it is sent for what shines
+  const bool last = path.depth > depth_ || path.scattered >= mostScattered_;  // it looks for emitters only
   std::optional<MediumWay> media;
   if (isThick(tracer) && !path.within) {
     Sampler numbers = path.numbers.branch(Branch::medium);
@@ -116,7 +116,7 @@ std::optional<Color> PathTracer::arrive(Tracer& tracer, Path& path, const std::o
   else if (!world.lights().empty())
     at.addLights(sum, path.numbers);
 
-  // What lets light in that comes out here: of what is seen first several places, else perhaps one.
+  // Where light goes in that comes out here: several places behind the camera ray, else perhaps one.
   const auto throughBody = [&](std::uint32_t n, Real part) {
     const Sampler own = path.numbers.branch(Branch::pathBody).branch(n);
     const auto in = entrance(at, *body, path.weight, own.branch(0));
@@ -180,7 +180,7 @@ std::optional<Color> PathTracer::arrive(Tracer& tracer, Path& path, const std::o
   return turns.end();
 }
 
-/// The same where a medium on the way scatters the path.
+/// Gathers and turns the path where a medium on the way scatters it.
 std::optional<Color> PathTracer::scatter(Tracer& tracer, Path& path, const MediumWay& way,
                                          const MediumWay::Place& place, Turns& turns) const {
   Turn& turn = turns.push(tracer, path.depth, path.ink);

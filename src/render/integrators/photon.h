@@ -41,7 +41,7 @@ class PhotonTracer : public PathTracer, private Terminator {
   struct Maps {
     PhotonMap all, caustics, media;
   };
-  std::vector<Maps> maps_;  ///< of each pass
+  std::vector<Maps> maps_;  ///< maps of each pass
   IrradianceCache cache_;
 };
 

@@ -107,7 +107,7 @@ class PhotonTracer::CacheFiller {
       const Vec3 direction = basis.toWorld(cells_.direction(n, own.branch(0).next2()));
       Path path{{at.leaveToLight(direction), at.inside, own.branch(2), RayKind::bounce}};
       path.depth = 1;
-      path.density = std::numeric_limits<Real>::min();  // lamps are asked for, and never met
+      path.density = std::numeric_limits<Real>::min();  // lamps are sampled, and never hit
       path.asked = true;
       path.told = {
           .maps = static_cast<std::size_t>(n) % path_.maps_.size(), .gathers = true, .bounced = true};

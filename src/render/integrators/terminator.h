@@ -1,4 +1,5 @@
-// What ends paths early, because it knows light that they would find: photons (integrators/photon.h).
+// The interface of those that end paths early, because they know light that paths would find: photons
+// (integrators/photon.h).
 #pragma once
 
 #include "render/media/media.h"
@@ -10,7 +11,7 @@ class Terminator {
  public:
   virtual ~Terminator() = default;
 
-  /// What a path carries for it.
+  /// The state that a path carries for it.
   struct Told {
     std::size_t maps = 0;  ///< which of several sets of photons
     bool gathers = false;  ///< they tell all light of the vertex where it arrives
@@ -18,7 +19,7 @@ class Terminator {
     Real apart = 0;        ///< except for what a surface as near as this sends evenly
     bool bounced = false;  ///< they were asked what mirrors and glass bring to where it was scattered
   };
-  /// What is left to find at a vertex.
+  /// The light that is left to find at a vertex.
   struct Left {
     bool lamps = true;                 ///< the light of lamps, as that of the lights was asked for
     bool lobe = true;                  ///< what a ray into the lobe brings
@@ -38,7 +39,7 @@ class Terminator {
   /// Adds what it knows of the light that a medium scatters there.
   virtual void addInMedium(Gather& sum, const ScatterPlace& at, const Told& told,
                            const Sampler& numbers) const = 0;
-  /// What a path carries that goes on with a ray of that kind.
+  /// The state of a path that continues with a ray of that kind.
   static Told onward(const Told& told, const Left& left, RayKind kind) {
     if (kind == RayKind::bounce) return left.next;
     Told next = told;

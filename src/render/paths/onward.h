@@ -46,7 +46,7 @@ class Onward {
     Real density = 0;  ///< density of a direction in the lobe, per solid angle; 0: there was one only
     Real ratio = 1;    ///< ratio of the indices before and behind
     std::optional<Interfaces> behind{};  ///< what it runs in, if it goes to the other side
-    /// What it runs in, where the ray that led here ran in `before`.
+    /// The media that it runs in, where the ray that led here ran in `before`.
     const Interfaces& in(const Interfaces& before) const { return behind ? *behind : before; }
   };
   /// Chooses where a path from the camera continues, or one `fromLight`, which carries light itself; `lit`:

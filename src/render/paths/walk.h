@@ -17,11 +17,11 @@
 
 namespace trace {
 
-/// The ray by which a path goes on. What else a path carries, integrators add.
+/// The ray with which a path continues. Integrators add what else a path carries.
 struct Leg {
   Ray ray;
   Interfaces inside;  ///< what it starts in, and is in where it arrives
-  Sampler numbers;    ///< of the vertex that it comes from, and of that where it arrives
+  Sampler numbers;    ///< numbers of the vertex that it comes from, then of that where it arrives
   RayKind kind = RayKind::camera;
   Footprint footprint{};  ///< none where none is wanted
   Real ink = 0;           ///< how much of it an outline covers
@@ -67,7 +67,7 @@ class Turns : public InlineStack<Turn, 8> {
   }
 };
 
-/// The path goes on by that ray, which `leg` becomes; `arrived` is its footprint at the turn, if there is
+/// The path continues with that ray, which `leg` becomes; `arrived` is its footprint at the turn, if there is
 /// one.
 void goOn(Leg& leg, Turn& turn, const Interaction& at, const Differentials* arrived, const Onward::Ray& next);
 
