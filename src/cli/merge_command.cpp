@@ -137,7 +137,7 @@ int mergeCommand(const Arguments& arguments, const Console& console) {
   for (std::size_t picture = 0; picture < render.pictures() && code == kDone; ++picture) {
     Session session;
     std::optional<PictureFiles> files;
-    std::optional<Message> dark;
+    std::optional<Message> aid;
     try {
       signals.preparingBegins();
       render.open(session, picture);
@@ -155,7 +155,7 @@ int mergeCommand(const Arguments& arguments, const Console& console) {
                   identities[at], {part, render.parts});
         work.reached(part + 1);
       }
-      dark = session.darkness();
+      aid = session.firstAid();
     } catch (const StoppedByUser&) {
       console.last(false, "stopped by the user: " +
                               (written.empty() ? "nothing written" : "wrote pictures up to " + written));
@@ -163,7 +163,7 @@ int mergeCommand(const Arguments& arguments, const Console& console) {
     }
     RenderResult result;
     const SavedPicture saved = save(session, result, render.arguments, signals, *files, progress, console);
-    if (dark) console.warnings({&*dark, 1});
+    if (aid) console.warnings({&*aid, 1});
     written = saved.path;
     size = pictureText(session, 1) + (saved.finish == LastSteps::all ? andPasses(session.settings()) : "");
     code = saved.elsewhere ? kFailed : exitCode(result);

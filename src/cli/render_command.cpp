@@ -100,8 +100,8 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   RenderResult result = renderPictureWatched(session, arguments, signals, console, progress, files, Part{});
   reportLosses(session, result, console);
 
-  std::optional<Message> dark;
-  if (result.end == End::finished) dark = session.darkness();
+  std::optional<Message> aid;
+  if (result.end == End::finished) aid = session.firstAid();
   if (session.job().done == 0) {  // a black picture is worth less than what the file may hold now
     console.line(LogLevel::error, whyStopped(result) + "nothing written, for nothing was finished");
     return exitCode(result);
@@ -111,7 +111,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   int code = saved.elsewhere ? kFailed : exitCode(result);
   const std::string goesOn = saved.path.empty() ? "" : settleCheckpoint(session, result, arguments, files);
   if (result.end == End::finished) reportOldCheckpoints(session, files, console);
-  if (dark) console.warnings({&*dark, 1});
+  if (aid) console.warnings({&*aid, 1});
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (!reportStatistics(arguments, session, result, saved.path, seconds, console)) code = kFailed;
   if (saved.path.empty()) {
@@ -121,12 +121,14 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   std::string cleaned;
   if (const auto change = files.denoiseChange())
     cleaned = "; --denoise changed it by " + numberText(*change) + " levels on the average";
+  const std::string noise =
+      result.end == End::finished && !arguments.quick ? noiseText(session.settings(), session.film()) : "";
   std::string chosen = chosenText(session.scene(), session.settings(), session.measuredExposure());
   if (!chosen.empty()) chosen.insert(0, "; ");
   const std::string passes = saved.finish == LastSteps::all ? andPasses(session.settings()) : "";
   console.last(code == kDone, stopped + "wrote " + saved.path + passes + " (" +
                                   pictureText(session, session.job().fraction()) + ") in " +
-                                  durationText(seconds) + whereText(saved, output) + cleaned +
+                                  durationText(seconds) + whereText(saved, output) + noise + cleaned +
                                   removedText(files) + goesOn + chosen);
   return code;
 }

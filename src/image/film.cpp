@@ -13,7 +13,9 @@ double PixelSum::variance() const {
   return std::max(0.0, squares_ / n - mean * mean) * n / std::max(1.0, n - 1) / n;
 }
 
-double PixelSum::error() const { return std::sqrt(variance()) / std::max(1.0, luminanceOf(colors_.mean())); }
+double PixelSum::error(double white) const {
+  return std::sqrt(variance()) / std::max(white, luminanceOf(colors_.mean()));
+}
 
 std::vector<Wave> wavesOf(int samples, int first) {
   std::vector<Wave> waves;
@@ -90,14 +92,14 @@ void Film::sum(const Wave& wave, const TileSamples& samples) {
           sum = value(at);
       }
       at += count;
-      if (isFirst) pixel.noteFirstError();
+      if (isFirst) pixel.noteFirstErrorFor(white_);
     }
   for (const PixelBeside& one : samples.beside) pixels_[index(one.x, one.y)].noteFirstError(one.firstError);
 }
 
 bool Film::settled(int x, int y) const {
   const PixelSum& pixel = pixels_[index(x, y)];
-  if (!pixel.settles(noise_)) return false;
+  if (!pixel.settles(noise_, white_)) return false;
   double around = 0;
   for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v)
     for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u)
@@ -153,7 +155,7 @@ double Film::shareDone() const {
           continue;
         }
         ++judged;
-        const double times = pixel.error() / noise_, fewest = PixelSum::kFewest;
+        const double times = pixel.error(white_) / noise_, fewest = PixelSum::kFewest;
         likely += isWhole ? taken : std::clamp<double>(std::max(fewest, taken * times * times), taken, all);
       }
   }
@@ -312,7 +314,7 @@ Picture Film::sampleCounts() const {
 Picture Film::errors() const {
   Picture errors(width_, height_);
   forEachDone([&](const PixelSum& pixel, int x, int y) {
-    if (pixel.taken() > 1) errors.at(x, y) = Color(pixel.error());
+    if (pixel.taken() > 1) errors.at(x, y) = Color(pixel.error(white_));
   });
   return errors;
 }
@@ -332,7 +334,7 @@ Convergence Film::convergence() const {
       so.samples += pixel.taken();
       if (pixel.taken() < 2) return;
       ++judged;
-      so.error += pixel.error();
+      so.error += pixel.error(white_);
     });
   }
   so.judged = judged > 0 && !takesSplats();

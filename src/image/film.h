@@ -98,20 +98,22 @@ class PixelSum {
   /// Before so many samples nothing is known of the error.
   static constexpr int kFewest = 16;
   /// The standard error of the mean's luminance, as if the samples were independent: more than the true one
-  /// where they are spread evenly. Relative to white or, above white, of the mean.
-  double error() const;
+  /// where they are spread evenly. Relative to the luminance that shows as white or, above it, of the mean.
+  double error(double white = 1) const;
   /// The variance of the mean's luminance, likewise.
   double variance() const;
   /// Whether more samples are not needed for such an error; never for 0.
-  bool settles(double noise) const { return noise > 0 && taken_ >= kFewest && error() <= noise; }
+  bool settles(double noise, double white = 1) const {
+    return noise > 0 && taken_ >= kFewest && error(white) <= noise;
+  }
 
   /// From so many samples on a pixel is judged by what it has seen itself, and no longer by those around it.
   static constexpr int kSure = 64;
   /// error() after the first wave that made it known, for the pixels around; 0 before.
   double firstError() const { return firstError_; }
   /// After a wave, or when somebody else knows it.
-  void noteFirstError() {
-    if (taken_ >= kFewest) firstError_ = static_cast<float>(error());
+  void noteFirstErrorFor(double white) {
+    if (taken_ >= kFewest) firstError_ = static_cast<float>(error(white));
   }
   void noteFirstError(double error) { firstError_ = static_cast<float>(error); }
   /// For a pixel that settles: whether that is no accident. A few samples that agree may all have missed an
@@ -189,6 +191,8 @@ class Film {
   explicit Film(int width, int height, int samples = 1, std::span<const LayerKind> layers = {},
                 double noise = 0, int tileSize = kTileSize);
 
+  /// The luminance that shows as white, of which errors are parts. Before anything is added.
+  void setWhite(double luminance) { white_ = luminance; }
   /// From now on light may land anywhere: a pixel is the sum of its samples' mean and of what a path brings
   /// there on the average. Before anything is added.
   void takeSplats() { splats_ = std::make_unique<SplatPlane>(width_, height_); }
@@ -326,6 +330,7 @@ class Film {
 
   int width_, height_, tileSize_, columns_, rows_;
   double noise_;
+  double white_ = 1;
   TileShare share_;
   std::vector<Wave> waves_;
   HugeVector<PixelSum> pixels_;

@@ -411,8 +411,8 @@ const std::array kOptions{
     row<&Settings::noiseTarget>(
         {.name = "noise-target",
          .group = "Picture",
-         .help = "stop a pixel's samples, from 16 on, once its error is at most this part of white (0.004 is "
-                 "a level of 255); spp is the maximum; 0 takes all. A grid becomes sobol",
+         .help = "stop a pixel's samples, from 16 on, once its error is at most this part of white, as "
+                 "exposed (0.004 is a level of 255); spp is the maximum; 0 takes all. A grid becomes sobol",
          .source = "",
          .least = 0,
          .most = 1,

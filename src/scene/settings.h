@@ -3,6 +3,7 @@
 // picture's metadata. A field without a row does not compile.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -237,6 +238,9 @@ inline Optics opticsOf(const Settings& s) {
 inline Development developmentOf(const Settings& s) {
   return {s.bloom, s.exposure, s.whiteBalance, s.tone, s.transfer, s.dither};
 }
+
+/// The luminance that shows as white.
+inline double whiteOf(const Settings& s) { return std::exp2(-s.exposure); }
 
 inline Rules rulesOf(const Settings& s) {
   return {s.highlight,    s.shininessScale,   s.mirrorDefault,

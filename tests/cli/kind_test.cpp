@@ -115,6 +115,25 @@ TEST(AutomaticExposure, MakesUpForFaintAndForStrongLight) {
   EXPECT_NEAR(stops("(1024, 1024, 1024)"), one - 10, 0.011);
 }
 
+TEST(AutomaticExposure, IsThatOfTheSceneWhoeverTracesItsIndirectLight) {
+  const auto stops = [](const std::string& integrator) {
+    Scene scene = read(
+        "Trace 1\nsettings { width = 24; spp = 1 }\ncamera { position = (0, 1.6, 6); look_at = (0, 0.9, 0) "
+        "}\n"
+        "plane { }\ntranslate(0, 2, 0, scale(0.5, box { material = { emissive = (20, 18, 15) } }))\n"
+        "translate(0, 1.6, 0, scale(1, 0.1, 1, box { }))\n");
+    const std::vector<Choice> chosen{{"integrator", integrator, {}}};
+    const Settings settings = settingsFor(scene, {scene.choices, chosen});
+    Session session;
+    session.open(std::move(scene), settings);
+    session.build();
+    return session.measuredExposure();
+  };
+  const Real path = stops("path");
+  EXPECT_NE(path, 0);
+  for (const char* integrator : {"bdpt", "photon", "mlt"}) EXPECT_EQ(stops(integrator), path) << integrator;
+}
+
 TEST(AutomaticExposure, BringsTheMeanToTheMiddleAndKeepsBrightParts) {
   Development development;
   development.transfer = Transfer::srgb;

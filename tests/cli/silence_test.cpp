@@ -133,5 +133,69 @@ translate(0,1,0, sphere { material = { library = glass; } })
   EXPECT_LT(shadowOf("bdpt.png"), 0.95 * shadowOf("path.png"));
 }
 
+// --- first aid: app/session/first_aid.h ---------------------------------------------------------------
+
+TEST_F(Silence, APictureThatIsBrighterThanWhiteIsToldWithAnExposureThatHelps) {
+  write("white.ray", replaced(kFirst, "color = (1, 1, 1)", "color = (4e4, 4e4, 4e4)"));
+  const Run white = run({"white.ray", "white.png", "-w", "80"});
+  EXPECT_EQ(white.code, 0);
+  EXPECT_GT(meanLevel("white.png"), 120);
+  std::smatch cure;
+  ASSERT_TRUE(
+      std::regex_search(white.err, cure, std::regex(R"(is brighter than white[^]*--exposure (\S+) )")))
+      << white.err;
+  const Run cured = run({"white.ray", "cured.png", "-w", "80", "--exposure", cure[1]});
+  EXPECT_FALSE(contains(cured.err, "warning")) << cured.err;
+  EXPECT_LT(meanLevel("cured.png"), 110);
+  EXPECT_GT(meanLevel("cured.png"), 30);
+}
+
+TEST_F(Silence, ALightBackgroundOfWhiteIsNotTold) {
+  write("white.ray", replaced(replaced(kFirst, "color = (1, 1, 1)", "color = (140, 140, 140)"), "point_light",
+                              "background { color = (1, 1, 1); }\npoint_light"));
+  EXPECT_FALSE(contains(run({"white.ray", "white.png", "-w", "80"}).err, "brighter than white"));
+}
+
+TEST_F(Silence, APictureOfOneColourIsToldWithWhereToLook) {
+  write("grey.ray",
+        "SBT-raytracer 1.0\nbackground { color = (0.5, 0.5, 0.5); }\n"
+        "camera { position = (0, 0, 5); viewdir = (0, 0, 1); updir = (0, 1, 0); }\n"
+        "ambient_light { color = (1, 1, 1); }\nsphere { material = { ambient = (1, 0, 0); } }\n");
+  const Run away = run({"grey.ray", "grey.png", "-w", "40"});
+  EXPECT_TRUE(contains(away.err, "no object is in the picture")) << away.err;
+  EXPECT_TRUE(contains(away.err, "look_at = (0, 0, 0)")) << away.err;
+  write("grey.ray",
+        "SBT-raytracer 1.0\nbackground { color = (0.5, 0.5, 0.5); }\n"
+        "camera { position = (0, 0, 5); look_at = (0, 0, 0); updir = (0, 1, 0); }\n"
+        "ambient_light { color = (1, 1, 1); }\nsphere { material = { ambient = (1, 0, 0); } }\n");
+  EXPECT_FALSE(contains(run({"grey.ray", "grey.png", "-w", "40"}).err, "warning"));
+}
+
+TEST_F(Silence, ANoisyPictureIsToldWithTheSamplesThatHalveItsError) {
+  const std::string scene =
+      "SBT-raytracer 1.0\nbackground { color = (0.02, 0.02, 0.02); }\n"
+      "camera { position = (0, 1, 5); look_at = (0, 1, 0); updir = (0, 1, 0); }\n"
+      "translate(0, 4, 0, rotate(1, 0, 0, 1.5708, square { material = { emissive = (150, 150, "
+      "150); } }))\nrotate(1, 0, 0, -1.5708, scale(10, square { material = { diffuse = "
+      "(0.7, 0.7, 0.7); } }))\n";
+  write("noisy.ray", scene);
+  const auto errorWith = [&](const std::string& spp) {
+    const Run r = run({"noisy.ray", "noisy.png", "-w", "48", "--integrator", "path", "--spp", spp});
+    std::smatch told;
+    const bool found = std::regex_search(
+        r.err, told, std::regex(R"(estimated error is (\d+) levels of 255, which --spp (\d+) halves)"));
+    return found ? std::pair(std::stoi(told[1]), std::stoi(told[2])) : std::pair(0, 0);
+  };
+  const auto [few, more] = errorWith("4");
+  ASSERT_EQ(more, 16);
+  const auto [half, most] = errorWith("16");
+  EXPECT_GE(2 * half, few - 2);
+  EXPECT_LE(2 * half, 1.4 * few);
+  EXPECT_EQ(errorWith("1024").first, 0);
+  EXPECT_FALSE(contains(
+      run({"noisy.ray", "noisy.png", "-w", "48", "--integrator", "path", "--spp", "4", "--denoise"}).err,
+      "noisy:"));
+}
+
 }  // namespace
 }  // namespace trace::test

@@ -61,6 +61,16 @@ TEST_F(Adaptive, NearlyThePictureOfAllSamplesWithAFewOfThem) {
   EXPECT_GT(taken, 16 * pixels) << "the edge needs more than the fewest";
 }
 
+TEST_F(Adaptive, AnErrorIsAPartOfWhatShowsAsWhite) {
+  const Picture usual = rendered(2).layer(0);
+  settings_.exposure = 3;
+  const Picture exposed = rendered(2).layer(0);
+  EXPECT_NE(exposed, usual);
+  settings_.exposure = 0;
+  scene_.lights[0].light = DirectionalLight{.direction = {-1, -1, -2}, .color = Color(8)};
+  EXPECT_EQ(rendered(2).layer(0), exposed) << "as many samples as with three stops more light";
+}
+
 TEST_F(Adaptive, GoesOnFromWhatWasSaved) {
   const World world = build(scene_, settings_);
   const Film whole = rendered(1);

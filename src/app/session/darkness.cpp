@@ -208,17 +208,9 @@ std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, 
 
 /// Where to look, if nothing is seen.
 std::optional<Cure> lookAround(const Scene& scene) {
-  Box3 all;
-  for (const Object& object : scene.objects) {
-    const Box3 box = object.worldFromObject * prepare(object.shape).bounds();
-    if (!box.empty() && !box.unbounded()) all.extend(box);
-  }
-  if (all.empty()) return {};
-  return Cure{Place{.file = scene.file}, "; no object is in the picture",
-              scene.format == "ray"
-                  ? "look_at = " + rounded(all.center()) +
-                        "; in the camera, in place of viewdir, points it at the objects"
-                  : "turn the camera to " + rounded(all.center()) + ", the middle of the objects"};
+  const std::string where = whereToLook(scene);
+  if (where.empty()) return {};
+  return Cure{Place{.file = scene.file}, "; no object is in the picture", where};
 }
 
 /// An emissive object whose shape is not sampled as a light: scattered rays find it at random alone.
@@ -245,6 +237,24 @@ std::optional<Cure> cureOf(const Scene& scene, const Settings& settings, const W
 }
 
 }  // namespace
+
+bool seesObjects(const World& world) {
+  const std::vector<char> seen = objectsSeen(world);
+  return std::any_of(seen.begin(), seen.end(), [](char is) { return is != 0; });
+}
+
+std::string whereToLook(const Scene& scene) {
+  Box3 all;
+  for (const Object& object : scene.objects) {
+    const Box3 box = object.worldFromObject * prepare(object.shape).bounds();
+    if (!box.empty() && !box.unbounded()) all.extend(box);
+  }
+  if (all.empty()) return "";
+  return scene.format == "ray"
+             ? "look_at = " + rounded(all.center()) +
+                   "; in the camera, in place of viewdir, points it at the objects"
+             : "turn the camera to " + rounded(all.center()) + ", the middle of the objects";
+}
 
 Picture cellsOf(const Film& film) {
   constexpr int kSide = 4;  // so many pixels of a cell are looked at, across and down

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "base/error.h"
 #include "image/film.h"
@@ -15,6 +16,11 @@ namespace trace {
 Picture cellsOf(const Film& film);
 /// The same, traced for the purpose with as few samples as will do.
 Picture tracedCells(const World& world, const Settings& settings);
+
+/// Whether the camera sees an object somewhere, as far as few rays tell.
+bool seesObjects(const World& world);
+/// How the camera is pointed at the objects; "" if nothing has a place.
+std::string whereToLook(const Scene& scene);
 
 /// A warning if nearly all of the picture, and of what is seen of objects in it, is darker than 2 levels of
 /// 255, else nothing. A dark background beside something that is lit is none of its business. Its hint works

@@ -60,14 +60,14 @@ Explanation explainDivided(std::span<const Moment> moments, const Settings& sett
 }
 
 /// The greatest of the pixels around, and of this one.
-double firstErrorAround(PixelTracer& tracer, const Size& size, int x, int y) {
+double firstErrorAround(PixelTracer& tracer, const Size& size, int x, int y, double white) {
   const auto waves = wavesOf(tracer.samples());
   const auto first = std::find_if(waves.begin(), waves.end(),
                                   [](const Wave& wave) { return wave.end >= PixelSum::kFewest; });
   double greatest = 0;
   for (int v = std::max(0, y - 1); v <= std::min(size.height - 1, y + 1); ++v)
     for (int u = std::max(0, x - 1); u <= std::min(size.width - 1, x + 1); ++u)
-      greatest = std::max(greatest, firstErrorOf(tracer, u, v, first->end));
+      greatest = std::max(greatest, firstErrorOf(tracer, u, v, first->end, white));
   return greatest;
 }
 
@@ -89,11 +89,11 @@ Explanation explain(std::span<const Moment> moments, const Settings& settings, c
   PixelSum sum;
   std::optional<double> around;
   const auto isSure = [&] {
-    if (!around) around = firstErrorAround(plain, size, x, y);
+    if (!around) around = firstErrorAround(plain, size, x, y, whiteOf(settings));
     return sum.isSure(settings.noiseTarget, *around);
   };
   for (const Wave& wave : wavesOf(plain.samples())) {
-    result.settled = sum.settles(settings.noiseTarget) && isSure();
+    result.settled = sum.settles(settings.noiseTarget, whiteOf(settings)) && isSure();
     if (result.settled) break;
     for (int k = wave.first; k < wave.end && !(cancelled && cancelled()); ++k)
       addWave(plain, x, y, {k, k + 1}, sum, [&](const Color& color, Real weight) {

@@ -193,6 +193,7 @@ Film makeFilm(const Settings& settings, int width, int height) {
   const Traits traits = traitsOf(settings);
   Film film(width, height, samplesOf(settings), layers,
             traits.has(Trait::byChains) ? 0 : settings.noiseTarget);
+  film.setWhite(whiteOf(settings));
   if (traits.has(Trait::splats)) film.takeSplats();
   if (subdivides(settings)) film.divide(subdivisionOf(settings, {width, height}));
   if (settings.denoise && !traits.has(Trait::splats) && !film.corners()) film.keepHalves();

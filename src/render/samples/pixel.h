@@ -190,11 +190,11 @@ void addWave(PixelTracer& tracer, int x, int y, const Wave& wave, PixelSum& sum,
   }
 }
 
-/// PixelSum::firstError() after so many samples.
-inline double firstErrorOf(PixelTracer& tracer, int x, int y, int samples) {
+/// PixelSum::firstError() after so many samples, of that white.
+inline double firstErrorOf(PixelTracer& tracer, int x, int y, int samples, double white) {
   PixelSum sum;
   addWave(tracer, x, y, {0, samples}, sum, [](const Color&, Real) {});
-  sum.noteFirstError();
+  sum.noteFirstErrorFor(white);
   return sum.firstError();
 }
 

@@ -1,0 +1,100 @@
+#include "app/session/first_aid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "app/session/auto_exposure.h"
+#include "app/session/darkness.h"
+#include "image/development.h"
+#include "render/samples/sampler.h"
+#include "scene/integrators.h"
+
+namespace trace {
+namespace {
+
+constexpr double kLargePart = 0.25;  // fraction of the picture
+constexpr double kBeyond = 0.5;      // stops: white that is white on purpose is no brighter than this
+constexpr double kOneLevel = 1.0 / 255;
+constexpr double kQuiet = 0.25, kNoisy = 4;  // levels of 255: as good as none, and what is seen at a glance
+
+/// The fraction of the picture that is white in all channels, made so many stops darker.
+double whitePart(const Picture& cells, Development development, double darker) {
+  development.exposure -= darker;
+  const auto white = std::count_if(cells.pixels.begin(), cells.pixels.end(), [&](const Color& c) {
+    const Color shown = developed(c, development);
+    return shown.r >= 1 && shown.g >= 1 && shown.b >= 1;
+  });
+  return static_cast<double>(white) / static_cast<double>(cells.pixels.size());
+}
+
+std::optional<Message> clipped(const Scene& scene, const Settings& settings, const Picture& cells) {
+  if (settings.tone == Tone::stretch) return {};
+  Development development = developmentOf(settings);
+  const double white = whitePart(cells, development, kBeyond);
+  if (white < kLargePart) return {};
+  development.exposure = 0;
+  const Real stops = std::round(10 * exposureFor(cells, development)) / 10;
+  char what[100], cure[100];
+  std::snprintf(what, sizeof what, "%.0f %% of the picture is brighter than white and shows as white",
+                100 * white);
+  std::snprintf(cure, sizeof cure, "--exposure %g shows what is there", stops);
+  return Message{Message::Severity::warning, {.file = scene.file}, what, cure};
+}
+
+std::optional<Message> ofOneColor(const Scene& scene, const Settings& settings, const World& world,
+                                  const Picture& cells) {
+  const Development development = developmentOf(settings);
+  const Color first = developed(cells.pixels.front(), development);
+  for (const Color& c : cells.pixels) {
+    const Color shown = developed(c, development);
+    if (!(std::abs(shown.r - first.r) < kOneLevel && std::abs(shown.g - first.g) < kOneLevel &&
+          std::abs(shown.b - first.b) < kOneLevel))
+      return {};
+  }
+  const bool sees = seesObjects(world);
+  const std::string where = sees ? "" : whereToLook(scene);
+  return Message{Message::Severity::warning,
+                 {.file = scene.file},
+                 sees ? "the whole picture has one colour" : "no object is in the picture",
+                 where.empty() ? "`ray explain --pixel X,Y` says what a pixel shows" : where};
+}
+
+}  // namespace
+
+std::optional<Message> firstAid(const Scene& scene, const Settings& settings, const World& world,
+                                const Film& film) {
+  const Picture cells = cellsOf(film);
+  if (auto dark = darkness(scene, settings, world, cells)) return dark;
+  const bool isPart = !settings.region.whole() || settings.unweighted || settings.lightVertices >= 0 ||
+                      settings.cameraVertices >= 0;
+  if (isPart || scene.objects.empty() || hasTrait(settings, Trait::showsData)) return {};
+  try {
+    if (auto white = clipped(scene, settings, cells)) return white;
+    return ofOneColor(scene, settings, world, cells);
+  } catch (const Error&) {  // the time is over
+    return {};
+  }
+}
+
+std::string noiseText(const Settings& settings, const Film& film) {
+  if (settings.denoise || settings.noiseTarget > 0 || !hasTrait(settings, Trait::meetsLamps)) return "";
+  if (film.corners() || film.takesSplats()) return "";
+  std::vector<double> errors;
+  for (const Color& error : film.errors().pixels)
+    if (255 * error.r > kQuiet) errors.push_back(error.r);
+  if (errors.empty()) return "";
+  const auto middle = errors.begin() + std::ssize(errors) / 2;  // edges are few, and no noise
+  std::nth_element(errors.begin(), middle, errors.end());
+  const double levels = 255 * *middle;
+  if (!(levels >= kNoisy)) return "";
+  char text[120];
+  std::snprintf(
+      text, sizeof text,
+      "; noisy: its estimated error is %.0f levels of 255, which --spp %d halves and --denoise hides", levels,
+      4 * samplesOf(settings));
+  return text;
+}
+
+}  // namespace trace

@@ -1,0 +1,25 @@
+// The judgement of a finished picture: what is wrong with it that its maker may not have meant, and one cure
+// that works when pasted.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/error.h"
+#include "image/film.h"
+#include "render/world/world.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+
+namespace trace {
+
+/// A warning if the picture is nearly black (app/session/darkness.h), if a large part of it is brighter than
+/// a file can show, or if it has one colour; nothing of pictures that show data, or a part only.
+std::optional<Message> firstAid(const Scene& scene, const Settings& settings, const World& world,
+                                const Film& film);
+
+/// The estimated error of a noisy picture and the samples that halve it, to follow the last line of a render;
+/// "" if it is not noisy, if nothing is known of that, or if settings say how much is allowed.
+std::string noiseText(const Settings& settings, const Film& film);
+
+}  // namespace trace
