@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Prints the graph of floors (ARCHITECTURE.md) from the #include lines of src/, and fails when one goes
 # upward, sideways or through "..". CMake's include paths already keep floors apart; this shows it, and
-# catches what a relative path could smuggle past them. It also fails when another file than the two that need it
-# sees the structs of all shapes, which is slow to compile, and when code asks which integrator is chosen.
+# catches what a relative path could smuggle past them. It also fails when another file than those that need it
+# sees the structs of all shapes, lights, materials or textures, which is slow to compile, and when code asks which
+# integrator is chosen.
 # Usage: check_floors.sh [checkout]
 set -euo pipefail
 
@@ -24,12 +25,13 @@ render world maps rays samples lights media paths photons integrators chains pic
 most=30  # files in a room
 
 cd -- "${1:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
-for list in material texture; do
+for list in material texture light; do
   seers="$(grep -rlE "^#include \"shading/${list}_list.h\"" src | sort | tr '\n' ' ')"
   case "$list $seers" in
-    'material src/shading/bsdf.cpp src/shading/material_table.cpp ' | 'texture src/shading/texture_table.cpp ') ;;
+    'material src/shading/bsdf.cpp src/shading/material_table.cpp ' | 'texture src/shading/texture_table.cpp ' | \
+      'light src/shading/light_table.cpp ') ;;
     *)
-      echo "only the table of ${list}s and their Bsdfs include shading/${list}_list.h, not: $seers"
+      echo "only the table of ${list}s, and the Bsdfs of materials, include shading/${list}_list.h, not: $seers"
       exit 1
       ;;
   esac

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/match.h"
 #include "base/text.h"
 #include "geometry/mesh/mesh.h"
 #include "scene/quality.h"
@@ -37,13 +36,11 @@ Counts countShapes(const Scene& scene) {
 
 Counts countLights(const Scene& scene) {
   Counts counts;
-  std::size_t kind = 0;
-  forEachType<Light>([&]<class T>(T*) {
+  for (const LightType& type : lightTypes()) {
     std::size_t n = 0;
-    for (const LightSource& source : scene.lights) n += source.light.index() == kind;
-    if (n > 0) counts.emplace_back(T::kKeyword, n);
-    ++kind;
-  });
+    for (const LightSource& source : scene.lights) n += &source.light.type() == &type;
+    if (n > 0) counts.emplace_back(type.keyword, n);
+  }
   return counts;
 }
 

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <utility>
 
-#include "base/match.h"
 #include "formats/format.h"
 #include "formats/model.h"
 #include "geometry/mesh/mesh.h"
@@ -15,6 +14,7 @@
 #include "geometry/traced.h"
 #include "scene/picture_size.h"
 #include "scene/quality.h"
+#include "shading/lights/directional_light.h"
 
 namespace trace {
 namespace {
@@ -138,14 +138,14 @@ void smoothMeshes(Scene& scene) {
 void letLightsReach(Scene& scene, const KindGiven& given, const Box3& seen) {
   if (given.fading.empty()) return;
   const Vec3 target = given.lookAt ? *given.lookAt : seen.empty() ? Vec3{} : seen.center();
-  for (const std::size_t number : given.fading)
-    match(scene.lights[number].light, [&](auto& light) {
-      if constexpr (requires { light.quadratic; }) {
-        const Vec3 way = light.position - target;
-        const Real square = dot(way, way);
-        if (square > 0 && std::isfinite(square)) light.color = light.color * square;
-      }
-    });
+  for (const std::size_t number : given.fading) {
+    Light& light = scene.lights[number].light;
+    if (light.type().starts != LightOrigin::ball) continue;
+    const Vec3 way = *light.position() - target;
+    const Real square = dot(way, way);
+    Color& color = *editableValue<Color>(light, "color");
+    if (square > 0 && std::isfinite(square)) color = color * square;
+  }
   scene.kindDefaults.emplace_back("lights that reach what is looked at");
 }
 
@@ -174,7 +174,7 @@ void addKindChoices(Scene& scene, const Place& place) {
 LightSource keyLight(const Camera& camera) {
   constexpr Real kSize = 12;
   LightSource light = sun(camera, kSize);
-  std::get<DirectionalLight>(light.light).color = Color(1.6);
+  light.light.edit<DirectionalLight>()->color = Color(1.6);
   return light;
 }
 

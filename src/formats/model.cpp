@@ -10,6 +10,8 @@
 #include "geometry/mesh/mesh_repair.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/traced.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
 
 namespace trace {
 namespace {

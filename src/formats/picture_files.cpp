@@ -152,11 +152,9 @@ SeenFrom seenFrom(const Scene& scene, const std::string& file, Messages& message
   };
   for (const std::uint32_t used : usedMaterials(scene)) changePixels(seen.scene.materials.at(used), see);
   for (LightSource& source : seen.scene.lights)
-    match(source.light, [&](auto& light) {
-      if constexpr (requires { changePixels(light, see); })
-        changePixels(light, see);
-      else if constexpr (requires { light.file.data; })
-        light.file.file = placed(light.file.file);
+    editEachField(source.light, [&]<class Value>(const LightField&, Value& value) {
+      if constexpr (std::is_same_v<Value, Pixels>) see(value);
+      if constexpr (std::is_same_v<Value, PhotometryFile>) value.file = placed(value.file);
     });
   changePixels(seen.scene.background, see);
   if (left > 0)

@@ -87,6 +87,13 @@ template <class Struct, class Visit>
 void forEachValue(const Struct& from, Visit&& visit) {
   trace::forEachField<Struct>([&](const auto& field) { visit(field.keyword, valueOf(from.*field.member)); });
 }
+/// The fields of a light.
+template <class Visit>
+void forEachValue(const trace::Light& light, Visit&& visit) {
+  trace::forEachField(light, [&](const trace::LightField& field, const auto& value) {
+    visit(field.keyword, valueOf(value));
+  });
+}
 /// The fields of a material: those of its model, and its own.
 template <class Visit>
 void forEachValue(const trace::Material& material, Visit&& visit) {

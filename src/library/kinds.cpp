@@ -127,9 +127,9 @@ std::vector<Kind> kinds() {
     if (type.keyword == "polymesh") addMeshFields(kind);
     addFields<trace::ObjectLinks>(kind);
   }
-  trace::forEachType<trace::Light>([&]<class Light>(Light*) {
-    Kind& kind = all.emplace_back(kindOf<Light>("light"));
-    if constexpr (requires(Light light) { light.quadratic; })
+  for (const trace::LightType& type : trace::lightTypes()) {
+    Kind& kind = all.emplace_back(kindOf("light", trace::Light(type)));
+    if (type.starts == trace::LightOrigin::ball)
       kind.fields.push_back({.name = "power",
                              .type = "number",
                              .unit = "watts",
@@ -137,7 +137,7 @@ std::vector<Kind> kinds() {
                              .help = "emitted power, whose tint is color",
                              .usual = 0});
     addFields<trace::LightLinks>(kind);
-  });
+  }
   for (const trace::ModelType& type : trace::modelTypes())
     addFields<trace::Material>(all.emplace_back(kindOf("material", trace::MaterialModel(type))));
   for (const trace::TextureType& type : trace::textureTypes())

@@ -143,9 +143,7 @@ std::string PartState::keyword() const {
   const trace::Scene& scene = owner->scene;
   switch (category) {
     case kObject: return std::string(scene.objects[index()].shape.keyword());
-    case kLight:
-      return trace::match(scene.lights[index()].light,
-                          [](const auto& light) { return std::string(light.kKeyword); });
+    case kLight: return std::string(scene.lights[index()].light.keyword());
     case kMaterial: return std::string(scene.materials[index()].model.keyword());
     case kCamera: return std::string(trace::Camera::kKeyword);
     default: return std::string(trace::Background::kKeyword);
@@ -178,7 +176,7 @@ Fields PartState::all() const {
     }
     case kLight: {
       const trace::LightSource& source = scene.lights[index()];
-      trace::match(source.light, [&](const auto& light) { forEachValue(light, put); });
+      forEachValue(source.light, put);
       forEachValue(source.links, put);
       break;
     }
@@ -331,7 +329,7 @@ rayfile::PartGiven PartState::readAgain(const Node& node, trace::Scene& into) co
 
 void PartState::setLight(const Fields& fields) {
   trace::LightSource& source = owner->scene.lights[index()];
-  Fields others = trace::match(source.light, [&](const auto& light) { return otherFields(light, fields); });
+  Fields others = otherFields(source.light, fields);
   for (Field& field : otherFields(source.links, fields))
     if (field.value.isList() ? !field.value.list().empty() : !field.value.text().empty())
       others.push_back(std::move(field));

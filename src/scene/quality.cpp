@@ -5,7 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "base/match.h"
 #include "base/text.h"
 #include "geometry/shapes/csg_tree.h"
 #include "scene/integrators.h"
@@ -43,14 +42,9 @@ std::vector<Choice> choicesOfRow(const QualityRow& row) {
 
 /// It is a lamp, which is too small for paths to hit at random, or rays do not see it.
 bool isMissedByPaths(const Light& light) {
-  return match(light, [](const auto& l) {
-    if constexpr (requires { l.quadratic; })
-      return true;
-    else if constexpr (requires { l.visible; })
-      return !(l.visible && l.hasSize());
-    return requires { l.position; }
-    || requires { l.direction; };
-  });
+  if (light.type().starts == LightOrigin::ball) return true;
+  if (light.type().seen) return !(light.visible() && light.hasSize());
+  return light.position() || light.direction();
 }
 
 /// Light is bent in a body of it.

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/match.h"
 #include "geometry/shape.h"
 #include "math/transform.h"
 #include "scene/input_files.h"
@@ -97,10 +96,7 @@ struct Scene {
 template <class Change>
 void changePixels(Scene& scene, const Change& change) {
   for (Material& material : scene.materials) changePixels(material, change);
-  for (LightSource& source : scene.lights)
-    match(source.light, [&](auto& light) {
-      if constexpr (requires { changePixels(light, change); }) changePixels(light, change);
-    });
+  for (LightSource& source : scene.lights) changePixels(source.light, change);
   changePixels(scene.background, change);
 }
 

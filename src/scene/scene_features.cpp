@@ -1,15 +1,15 @@
-// The parts of scenes that can be switched off: see scene_features.h. Used by the options, which name them, and when a
-// World is compiled. Source: the course of the University of Washington, 2015, which demands a switch for
-// each extension.
+// The parts of scenes that can be switched off: see scene_features.h. Used by the options, which name them,
+// and when a World is compiled. Source: the course of the University of Washington, 2015, which demands a
+// switch for each extension.
 #include "scene/scene_features.h"
 
 #include <algorithm>
 #include <iterator>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "base/match.h"
+#include "shading/lights/goniometric_light.h"
+#include "shading/lights/point_light.h"
 #include "shading/medium.h"
 
 namespace trace {
@@ -22,10 +22,10 @@ constexpr SceneFeatureRow kParts[] = {
     {kBump, "surfaces are smooth", "bumps.ray"},
     {kDisplacement, "meshes keep their points", "displacement.ray"},
     {kOpacity, "surfaces have no holes", "holes.ray"},
-    {SpotLight::kKeyword, "a point light", "caustics.ray"},
-    {WarnLight::kKeyword, "a point light", "studio-lights.ray"},
-    {GoniometricLight::kKeyword, "a point light", "studio-lights.ray"},
-    {ProjectorLight::kKeyword, "a point light", "studio-lights.ray"},
+    {"spot_light", "a point light", "caustics.ray"},
+    {"warn_light", "a point light", "studio-lights.ray"},
+    {"goniometric_light", "a point light", "studio-lights.ray"},
+    {"projector_light", "a point light", "studio-lights.ray"},
 };
 
 bool isOff(std::string_view name, const EnumSet<SceneFeature>& off) {
@@ -91,25 +91,14 @@ Material withoutFeatures(Material material, const EnumSet<SceneFeature>& off) {
 }
 
 std::optional<Light> lightWithout(const Light& light, const EnumSet<SceneFeature>& off) {
-  if (off.empty()) return {};
-  return match(light, [&](const auto& l) -> std::optional<Light> {
-    using L = std::decay_t<decltype(l)>;
-    if constexpr (requires { l.quadratic; } && !std::is_same_v<L, PointLight>) {
-      if (!isOff(L::kKeyword, off)) return {};
-      PointLight point;
-      point.position = l.position;
-      point.color = l.color;
-      point.constant = l.constant;
-      point.linear = l.linear;
-      point.quadratic = l.quadratic;
-      point.radius = l.radius;
-      if constexpr (requires { l.perCandela; })
-        if (l.perCandela > 0 && l.file.data) point.color *= Color(l.perCandela * l.file.data->brightest());
-      return Light(point);
-    } else {
-      return {};
-    }
-  });
+  if (light.type().starts != LightOrigin::ball || light.is<PointLight>() || !isOff(light.keyword(), off))
+    return {};
+  Light point;
+  takeFields(point, light);
+  if (const auto* measured = light.as<GoniometricLight>())
+    if (measured->perCandela > 0 && measured->file.data)
+      point.edit<PointLight>()->color *= Color(measured->perCandela * measured->file.data->brightest());
+  return point;
 }
 
 }  // namespace trace

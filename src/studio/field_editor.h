@@ -18,7 +18,7 @@
 #include "math/color.h"
 #include "math/vec.h"
 #include "shading/formula_text.h"
-#include "shading/lights/photometry.h"
+#include "shading/lights/light.h"
 #include "shading/pixels.h"
 
 namespace trace::studio {
@@ -127,6 +127,11 @@ void editFields(Struct& target, Changed&& changed) {
 template <class Changed>
 void editFields(Shape& shape, Changed&& changed) {
   editEachField(shape, [&](const AnyField& field, auto& value) { editField(field, value, changed); });
+}
+/// Edits the fields of a light.
+template <class Changed>
+void editFields(Light& light, Changed&& changed) {
+  editEachField(light, [&](const LightField& field, auto& value) { editField(field, value, changed); });
 }
 
 // ------------------------------------------------------------------------------------------------------

@@ -12,7 +12,6 @@
 #include "app/editing/scene_changes.h"
 #include "app/editing/typed_file.h"
 #include "base/file.h"
-#include "base/match.h"
 #include "base/text.h"
 #include "geometry/mesh/mesh.h"
 #include "studio/field_editor.h"
@@ -106,16 +105,17 @@ void addMenu(Studio& studio) {
   });
   ImGui::Separator();
   ImGui::TextDisabled("Lights");
-  forEachType<Light>([&]<class T>(T*) {
-    if (ImGui::MenuItem(std::string(T::kKeyword).c_str()))
-      add(Selected::light, std::string(T::kKeyword), [](Scene& scene) {
-        T light;
-        if constexpr (requires { light.color; }) light.color = Color(1);
-        if constexpr (requires { light.position; }) light.position = scene.camera.position;
+  for (const LightType& type : lightTypes()) {
+    const std::string keyword(type.keyword);
+    if (ImGui::MenuItem(keyword.c_str()))
+      add(Selected::light, keyword, [&](Scene& scene) {
+        Light light(type);
+        if (Color* color = editableValue<Color>(light, "color")) *color = Color(1);
+        if (Vec3* position = editableValue<Vec3>(light, "position")) *position = scene.camera.position;
         scene.lights.push_back({light, {}});
       });
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(T::kHelp).c_str());
-  });
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(type.help).c_str());
+  }
   ImGui::Separator();
   if (ImGui::MenuItem("material"))
     add(Selected::material, "material", [](Scene& scene) { scene.materials.push_back(newMaterial()); });
@@ -186,8 +186,7 @@ void editObject(Studio& studio) {
 void editLight(Studio& studio) {
   const std::size_t index = studio.selectedIndex;
   LightSource source = studio.workspace.document.scene().lights[index];
-  match(source.light,
-        [&](const auto& light) { heading(studio, entryName(source), light.kHelp, source.place); });
+  heading(studio, entryName(source), source.light.type().help, source.place);
   if (buttonOnce("Delete")) return deleteSelected(studio);
   if (!beginFields("light")) return;
   const FieldsWithin within(entryName(source) + ":");
@@ -195,7 +194,7 @@ void editLight(Studio& studio) {
     change(studio, entryName(source) + ": " + std::string(key),
            [&](Scene& scene) { scene.lights[index] = source; });
   };
-  match(source.light, [&](auto& light) { editFields(light, changed); });
+  editFields(source.light, changed);
   editLinks(
       source.links, studio.workspace.document.scene().objects,
       [](const Object& object) -> const std::string& { return object.name; }, changed);

@@ -3,7 +3,6 @@
 #include <imgui.h>
 
 #include "app/editing/scene_changes.h"
-#include "base/match.h"
 #include "studio/landmarks.h"
 #include "studio/object_editor.h"
 
@@ -64,7 +63,7 @@ std::string entryName(const Object& object) {
 
 std::string entryName(const LightSource& source) {
   if (!source.links.name.empty()) return source.links.name;
-  return withLine(std::string(match(source.light, [](const auto& l) { return l.kKeyword; })), source.place);
+  return withLine(std::string(source.light.keyword()), source.place);
 }
 
 bool canDuplicate(const Studio& studio) {

@@ -5,8 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "base/match.h"
 #include "math/perpendicular.h"
+#include "shading/lights/goniometric_light.h"
+#include "shading/lights/projector_light.h"
 #include "studio/rays_view.h"
 #include "studio/studio.h"
 
@@ -77,40 +78,37 @@ std::optional<Real> halfWidth(Real degrees) {
 }
 
 void addLight(const Light& light, const Vec3& target, Real radius, Pen& pen) {
-  match(light, [&](const auto& l) {
-    Color c(0.6);
-    if constexpr (requires { l.color; })
-      c = clamp01(l.color / std::max(maxComponent(l.color), 1e-9)) * 0.9 + Color(0.1);
-    const Real size = 0.1 * radius;
-    if constexpr (requires { l.u; }) addPanel(l, c, pen);
-    if constexpr (requires { l.angle; })
-      if (const auto half = halfWidth(l.angle))
-        addBeam(l.position, AimFrame(l.direction, {0, 1, 0}), {*half, *half}, 4 * size, c, pen);
-    if constexpr (requires { l.half(); })
-      addBeam(l.position, AimFrame(l.direction, l.up), l.half(), 4 * size, c, pen);
-    if constexpr (requires { l.perCandela; }) {
-      const Vec3 d = normalize(l.direction);
-      pen.line(l.position, l.position + d * (2 * size), c, 1, 1.5f);
-    }
-    if constexpr (requires { l.position; }) {
-      for (int x = -1; x <= 1; ++x)
-        for (int y = -1; y <= 1; ++y)
-          for (int z = -1; z <= 1; ++z)
-            if (const Vec3 d(x, y, z); x || y || z)
-              pen.line(l.position + normalize(d) * (0.3 * size), l.position + normalize(d) * size, c, 1,
-                       1.5f);
-    } else if constexpr (requires { l.direction; }) {
-      const Vec3 d = normalize(l.direction);
-      const Vec3 side = perpendicularTo(d), other = cross(d, side);
-      for (int i = -1; i <= 1; ++i)
-        for (int j = -1; j <= 1; ++j) {
-          const Vec3 tip = target - d * (1.3 * radius) + (side * i + other * j) * (1.5 * size);
-          pen.line(tip - d * (4 * size), tip, c, 1, 1.5f);
-          for (const Vec3& wing : {side, -side, other, -other})
-            pen.line(tip, tip - d * (0.8 * size) + wing * (0.3 * size), c, 1, 1.5f);
-        }
-    }
-  });
+  Color c(0.6);
+  if (const Color* color = light.color())
+    c = clamp01(*color / std::max(maxComponent(*color), 1e-9)) * 0.9 + Color(0.1);
+  const Real size = 0.1 * radius;
+  const Vec3 *position = light.position(), *direction = light.direction();
+  const LightGeometry geometry = geometryOf(light);
+  if (geometry.u != Vec3{}) addPanel(geometry, c, pen);
+  if (geometry.cone)
+    if (const auto half = halfWidth(geometry.cone->angle))
+      addBeam(*position, AimFrame(*direction, {0, 1, 0}), {*half, *half}, 4 * size, c, pen);
+  if (const auto* projector = light.as<ProjectorLight>())
+    addBeam(*position, AimFrame(*direction, projector->up), projector->half(), 4 * size, c, pen);
+  if (light.is<GoniometricLight>())
+    pen.line(*position, *position + normalize(*direction) * (2 * size), c, 1, 1.5f);
+  if (position) {
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z)
+          if (const Vec3 d(x, y, z); x || y || z)
+            pen.line(*position + normalize(d) * (0.3 * size), *position + normalize(d) * size, c, 1, 1.5f);
+  } else if (direction) {
+    const Vec3 d = normalize(*direction);
+    const Vec3 side = perpendicularTo(d), other = cross(d, side);
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j) {
+        const Vec3 tip = target - d * (1.3 * radius) + (side * i + other * j) * (1.5 * size);
+        pen.line(tip - d * (4 * size), tip, c, 1, 1.5f);
+        for (const Vec3& wing : {side, -side, other, -other})
+          pen.line(tip, tip - d * (0.8 * size) + wing * (0.3 * size), c, 1, 1.5f);
+      }
+  }
 }
 
 void addNormals(const SceneModel& model, Real size, const Color& colour, Pen& pen) {

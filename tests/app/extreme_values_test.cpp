@@ -16,7 +16,7 @@
 #include "formats/format.h"
 #include "geometry/field_value.h"
 #include "geometry/shape.h"
-#include "shading/lights/light.h"
+#include "shading/light_list.h"
 #include "shading/material.h"
 #include "shading/material_list.h"
 #include "shading/texture.h"
@@ -153,7 +153,7 @@ TEST_F(ExtremeValues, OfOperandsOfSolids) {
 }
 
 TEST_F(ExtremeValues, OfEachLight) {
-  forEachType<Light>([&]<class Kind>(Kind*) {
+  forEachType<LightList>([&]<class Kind>(Kind*) {
     inEachField<Kind>([&](const std::string& field, const std::string& form) {
       expectRefusedOrSeen(
           std::string(kCamera) + std::string(Kind::kKeyword) + " { " + field + " = " + form + "; }",

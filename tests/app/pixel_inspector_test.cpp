@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "geometry/shapes/sphere.h"
+#include "shading/lights/directional_light.h"
 #include "support/scenes.h"
 
 namespace trace::test {

@@ -19,6 +19,8 @@
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
 #include "geometry/shapes/torus.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "support/random.h"
 #include "support/scenes.h"
 

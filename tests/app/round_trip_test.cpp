@@ -7,7 +7,6 @@
 #include <string>
 
 #include "base/file.h"
-#include "base/match.h"
 #include "base/read_scope.h"
 #include "formats/format.h"
 #include "support/folder.h"
@@ -123,9 +122,7 @@ TEST(RoundTrip, ExamplesLookTheSameAfterTheirTextWasEdited) {
     Scene edited = *read.scene;
     edited.camera.fov *= 0.9;
     for (LightSource& source : edited.lights)
-      match(source.light, [](auto& light) {
-        if constexpr (requires { light.color; }) light.color = light.color * 0.7;
-      });
+      if (Color* color = editableValue<Color>(source.light, "color")) *color = *color * 0.7;
     for (Material& material : edited.materials) {
       changeColors(material.model, {kDiffuse, kColor}, [](const Color& color) { return color * 0.8; });
       if (Phong* phong = material.model.edit<Phong>()) phong->shininess += 3;

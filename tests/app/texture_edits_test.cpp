@@ -4,6 +4,7 @@
 
 #include "app/editing/edits.h"
 #include "base/file.h"
+#include "shading/lights/projector_light.h"
 #include "shading/texture_flaws.h"
 #include "shading/textures/brick.h"
 #include "shading/textures/checker.h"
@@ -119,7 +120,7 @@ TEST(TextureEdits, AFileThatIsOddIsTakenAndTold) {
 TEST(TextureEdits, ALampLacksItsPhotometry) {
   Scene scene;
   scene.lights.push_back({ProjectorLight{}, {}});
-  std::get<ProjectorLight>(scene.lights[0].light).file.file = "no_such_file.png";
+  scene.lights[0].light.edit<ProjectorLight>()->file.file = "no_such_file.png";
   EXPECT_TRUE(lacksFiles(scene));
 }
 

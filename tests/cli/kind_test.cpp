@@ -12,6 +12,7 @@
 #include "scene/picture_size.h"
 #include "scene/quality.h"
 #include "shading/lights/light.h"
+#include "shading/lights/point_light.h"
 #include "support/paths.h"
 
 namespace trace::test {
@@ -169,7 +170,7 @@ TEST(KindDefaults, LeaveFilesOfTheCoursesAsTheyAre) {
   EXPECT_TRUE(scene.kindDefaults.empty());
   EXPECT_TRUE(scene.choices.empty());
   EXPECT_EQ(scene.camera, Camera{});
-  EXPECT_EQ(std::get<PointLight>(scene.lights.at(0).light).color, Color(1));
+  EXPECT_EQ(scene.lights.at(0).light.as<PointLight>()->color, Color(1));
   EXPECT_EQ(scene.materials.at(0), Material{});
   EXPECT_EQ(scene.objects.at(1).worldFromObject, Affine{});
 }
@@ -230,7 +231,7 @@ TEST(KindDefaults, UnknownWordsAreErrors) {
 TEST(KindDefaults, ALightReachesWhatTheCameraLooksAt) {
   const std::string camera = "Trace 1\ncamera { position = (0, 0, 9); look_at = (0, 1, 0) }\nsphere { }\n";
   const auto light = [&](const std::string& text) {
-    return std::get<PointLight>(read(camera + text).lights.at(0).light);
+    return *read(camera + text).lights.at(0).light.as<PointLight>();
   };
   EXPECT_EQ(light("point_light { position = (3, 5, 0) }").color, Color(25)) << "white at the distance 5";
   EXPECT_EQ(light("point_light { position = (3, 5, 0); color = (2, 1, 0) }").color, (Color{50, 25, 0}));

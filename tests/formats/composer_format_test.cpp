@@ -7,6 +7,10 @@
 #include "geometry/mesh/mesh.h"
 #include "image/codec.h"
 #include "mesh_helpers.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/spot_light.h"
 #include "support/folder.h"
 #include "support/paths.h"
 
@@ -36,13 +40,13 @@ TEST(Composer, ReadsCameraAndLights) {
   EXPECT_EQ(scene.camera.position, (Vec3{0, 1, 6}));
   EXPECT_NEAR(scene.camera.fov, 45, 1e-4);
   ASSERT_EQ(scene.lights.size(), 4u);
-  const auto& point = std::get<PointLight>(scene.lights[0].light);
+  const auto& point = *scene.lights[0].light.as<PointLight>();
   EXPECT_EQ((Vec3{point.constant, point.linear, point.quadratic}), (Vec3{0.25, 0.1, 0.01}));
-  EXPECT_EQ(std::get<DirectionalLight>(scene.lights[1].light).direction, (Vec3{-1, -1, -1}));
-  const auto& spot = std::get<SpotLight>(scene.lights[2].light);
+  EXPECT_EQ(scene.lights[1].light.as<DirectionalLight>()->direction, (Vec3{-1, -1, -1}));
+  const auto& spot = *scene.lights[2].light.as<SpotLight>();
   EXPECT_NEAR(spot.angle, 0.4 * 180 / kPi, 1e-12);
   EXPECT_NEAR(spot.exponent, 12.8, 1e-12);
-  EXPECT_EQ(std::get<AmbientLight>(scene.lights[3].light).color, Color(1));
+  EXPECT_EQ(scene.lights[3].light.as<AmbientLight>()->color, Color(1));
 }
 
 TEST(Composer, SpheresHaveThreeAxesOrOneRadius) {

@@ -10,6 +10,7 @@
 #include "scene/conventions.h"
 #include "scene/options.h"
 #include "scene/scene.h"
+#include "shading/light_list.h"
 #include "shading/material_list.h"
 #include "support/paths.h"
 
@@ -37,7 +38,7 @@ TEST(Docs, NameEveryNodeAndField) {
       EXPECT_NE(text.find("`" + std::string(field.keyword) + "`"), std::string::npos)
           << node << " " << field.keyword;
   }
-  forEachType<Light>([&]<class L>(L*) { expectDocumented<L>(text); });
+  forEachType<LightList>([&]<class L>(L*) { expectDocumented<L>(text); });
   forEachType<ModelList>([&]<class M>(M*) { expectDocumented<M>(text + "`material`"); });
   expectDocumented<Camera>(text + "`camera`");
   expectDocumented<Background>(text);

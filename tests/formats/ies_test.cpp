@@ -9,6 +9,7 @@
 
 #include "base/file.h"
 #include "formats/format.h"
+#include "shading/lights/goniometric_light.h"
 #include "support/paths.h"
 #include "support/random.h"
 
@@ -162,7 +163,7 @@ TEST(Ies, AScenesLightNamesItsFile) {
   const Scene scene = read(
       "goniometric_light { position = (0, 3, 0); color = (1, 1, 1); file = \"downlight.ies\"; direction = "
       "(0, -1, 0); }");
-  const auto& light = std::get<GoniometricLight>(scene.lights.at(0).light);
+  const auto& light = *scene.lights.at(0).light.as<GoniometricLight>();
   ASSERT_TRUE(light.file.data);
   EXPECT_EQ(light.file.data->brightest(), 1000);
   EXPECT_TRUE(std::any_of(scene.inputs.all().begin(), scene.inputs.all().end(),

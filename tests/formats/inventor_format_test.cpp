@@ -7,6 +7,9 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/cone.h"
 #include "mesh_helpers.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "support/paths.h"
 #include "support/shapes.h"
 
@@ -114,12 +117,12 @@ TEST(Inventor, LightsAreMovedAndMayBeOff) {
                  "DirectionalLight { } SpotLight "
                  "{ on FALSE } Sphere { }"));
   ASSERT_EQ(scene.lights.size(), 3u);
-  const auto& point = std::get<PointLight>(scene.lights[0].light);
+  const auto& point = *scene.lights[0].light.as<PointLight>();
   expectNear(point.position, {0, 4, 0});
   EXPECT_EQ(point.color, Color(0.5, 0, 0));
   EXPECT_EQ((Vec3{point.constant, point.linear, point.quadratic}), (Vec3{0.3, 0.2, 0.1}));
-  expectNear(std::get<DirectionalLight>(scene.lights[1].light).direction, {0, 1, 0});
-  EXPECT_EQ(std::get<AmbientLight>(scene.lights[2].light).color, Color(0.5));
+  expectNear(scene.lights[1].light.as<DirectionalLight>()->direction, {0, 1, 0});
+  EXPECT_EQ(scene.lights[2].light.as<AmbientLight>()->color, Color(0.5));
 }
 
 TEST(Inventor, OneLargeMeshIsNoNodeUsedTooOften) {
@@ -144,7 +147,7 @@ TEST(Inventor, OneLargeMeshIsNoNodeUsedTooOften) {
 TEST(Inventor, WithoutLightsThereIsAHeadlight) {
   const Scene scene = sceneIn(vrml2("Viewpoint { } Shape { geometry Box { } }"));
   ASSERT_EQ(scene.lights.size(), 1u);
-  EXPECT_EQ(std::get<DirectionalLight>(scene.lights[0].light).direction, scene.camera.viewdir);
+  EXPECT_EQ(scene.lights[0].light.as<DirectionalLight>()->direction, scene.camera.viewdir);
 }
 
 TEST(Inventor, TheFirstCameraCounts) {
@@ -305,7 +308,7 @@ TEST(Inventor, OtherFilesStandWhereTheyAreNamed) {
   EXPECT_EQ(phongAt(scene, 1).diffuse, Color(0, 0, 1));
   EXPECT_EQ(meshOf(scene, 2).triangles.size(), 12u);
   ASSERT_EQ(scene.lights.size(), 2u);
-  EXPECT_EQ(std::get<PointLight>(scene.lights[1].light).position, (Vec3{0, 7, 0}));
+  EXPECT_EQ(scene.lights[1].light.as<PointLight>()->position, (Vec3{0, 7, 0}));
   std::string said;
   for (const Message& message : messages.all()) said += message.what + "\n";
   EXPECT_NE(said.find("with_parts.wrl is left out: it holds itself"), std::string::npos) << said;

@@ -11,6 +11,9 @@
 #include "image/codec.h"
 #include "mesh_helpers.h"
 #include "ray_helpers.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "support/folder.h"
 
 namespace trace::inventor_writer_test {
@@ -72,11 +75,11 @@ TEST(InventorWriter, WhatTheFormatHasIsReadAgainAsItWas) {
   EXPECT_NEAR(again.camera.fov, 40, 1e-9);
   EXPECT_EQ(again.camera.aspectratio, 1.5);
   ASSERT_EQ(again.lights.size(), 3u);
-  const auto& point = std::get<PointLight>(again.lights[0].light);
+  const auto& point = *again.lights[0].light.as<PointLight>();
   EXPECT_EQ(point.color, Color(2, 1, 0.5));
   EXPECT_EQ((Vec3{point.constant, point.linear, point.quadratic}), (Vec3{0.5, 0.1, 0.2}));
-  EXPECT_EQ(std::get<DirectionalLight>(again.lights[1].light).color, Color(0.5, 0.25, 1));
-  const Color ambient = std::get<AmbientLight>(again.lights[2].light).color;
+  EXPECT_EQ(again.lights[1].light.as<DirectionalLight>()->color, Color(0.5, 0.25, 1));
+  const Color ambient = again.lights[2].light.as<AmbientLight>()->color;
   expectNear({ambient.r, ambient.g, ambient.b}, {0.1, 0.2, 0.3});
   ASSERT_EQ(again.objects.size(), 2u);
   EXPECT_TRUE(again.objects[0].shape.is<Sphere>());

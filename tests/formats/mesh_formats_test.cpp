@@ -8,6 +8,8 @@
 #include "formats/model_textures.h"
 #include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/spot_light.h"
 #include "shading/materials/principled.h"
 #include "shading/textures/image_map.h"
 #include "support/folder.h"
@@ -189,7 +191,7 @@ TEST(Gltf, ReadsHierarchyCameraLightsAndMaterials) {
   EXPECT_NEAR(scene.camera.fov, 0.7 * 180 / kPi, 1e-9);
   EXPECT_EQ(scene.camera.aspectratio, 1.5);
   ASSERT_EQ(scene.lights.size(), 1u);
-  const auto& lamp = std::get<PointLight>(scene.lights[0].light);
+  const auto& lamp = *scene.lights[0].light.as<PointLight>();
   EXPECT_EQ(lamp.position, (Vec3{2, 3, 4}));
   EXPECT_NEAR(lamp.color.r, 60 / kPi, 1e-9);
   EXPECT_EQ(scene.choices.at(0).option, "limit-attenuation");
@@ -212,7 +214,7 @@ TEST(Gltf, SpotLightsHaveTheirCones) {
 "spot": {"innerConeAngle": 0.3, "outerConeAngle": 0.6}}]}}})",
                                 messages);
   ASSERT_EQ(scene.lights.size(), 1u);
-  const auto& spot = std::get<SpotLight>(scene.lights[0].light);
+  const auto& spot = *scene.lights[0].light.as<SpotLight>();
   EXPECT_EQ(spot.position, (Vec3{1, 2, 3}));
   EXPECT_NEAR(length(spot.direction - Vec3{0, 0, 1}), 0, 1e-12) << "turned around";
   EXPECT_NEAR(spot.angle, 0.6 * 180 / kPi, 1e-9);

@@ -19,6 +19,12 @@
 #include "geometry/shapes/sphere.h"
 #include "image/codec.h"
 #include "ray_helpers.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/rectangle_light.h"
+#include "shading/lights/spot_light.h"
+#include "shading/lights/warn_light.h"
 
 namespace trace::ray_format_test {
 namespace {
@@ -195,7 +201,7 @@ TEST(RayFormat, ALightOfARadiusBelow0HasNoSize) {
   const std::string text = "point_light { position = (0, 1, 0); color = (1, 1, 1); radius = -1; }";
   EXPECT_EQ(warningsOf(text),
             "2:56: radius of point_light: expected at least 0, found -1: the light has no size");
-  EXPECT_EQ(std::get<PointLight>(load(text).scene.lights.at(0).light).radius, 0);
+  EXPECT_EQ(load(text).scene.lights.at(0).light.as<PointLight>()->radius, 0);
 }
 
 // --- transforms ---------------------------------------------------------------------------------------
@@ -425,14 +431,14 @@ TEST(RayFormat, ReadsLights) {
           "ambient_light { color = 0.25 }")
           .scene;
   ASSERT_EQ(scene.lights.size(), 3u);
-  const auto& point = std::get<PointLight>(scene.lights[0].light);
+  const auto& point = *scene.lights[0].light.as<PointLight>();
   EXPECT_EQ(point.position, Vec3(1, 2, 3));
   EXPECT_EQ(point.color, Color(0.5, 1, 2));
   EXPECT_EQ(point.constant, 0);
   EXPECT_EQ(point.linear, 0.25);
   EXPECT_EQ(point.quadratic, 1);
-  EXPECT_EQ(std::get<DirectionalLight>(scene.lights[1].light).direction, Vec3(0, -3, 0));
-  EXPECT_EQ(std::get<AmbientLight>(scene.lights[2].light).color, Color(0.25));
+  EXPECT_EQ(scene.lights[1].light.as<DirectionalLight>()->direction, Vec3(0, -3, 0));
+  EXPECT_EQ(scene.lights[2].light.as<AmbientLight>()->color, Color(0.25));
   EXPECT_EQ(scene.lights[1].place.line, 3);
   EXPECT_EQ(warningsOf("point_light { position = (0,0,0); color = 1; position = (1,1,1); color = 2 }"),
             "2:46: position of point_light given again; the last counts\n"
@@ -570,7 +576,7 @@ TEST(RayFormat, ReadsTheAreaLightsOfStudents) {
     const Scene scene = load("area_light { position = (0, 4, 0); color = (1, 1, 0.5); " + std::string(size) +
                              " = 0.5; constant_attenuation_coeff = 2; }")
                             .scene;
-    const auto& light = std::get<PointLight>(scene.lights.at(0).light);
+    const auto& light = *scene.lights.at(0).light.as<PointLight>();
     EXPECT_EQ(light.radius, 0.5);
     EXPECT_EQ(light.constant, 2);
     EXPECT_TRUE(scene.unrendered.empty());
@@ -611,7 +617,7 @@ TEST(RayFormat, RowsCopyTheirObjects) {
                         "color = (1, 1, 1); } } sphere { }")
                         .scene;
   ASSERT_EQ(lit.lights.size(), 3u);
-  EXPECT_EQ(std::get<PointLight>(lit.lights[2].light).position, (Vec3{1, 5, 1}));
+  EXPECT_EQ(lit.lights[2].light.as<PointLight>()->position, (Vec3{1, 5, 1}));
   EXPECT_NE(errorsOf("translate(1, 0, 0, rows { point_light { position = (1, 1, 1); color = (1, 1, 1); } })")
                 .find("belongs to the top of a file"),
             std::string::npos);
@@ -629,7 +635,7 @@ TEST(RayFormat, RowsMoveAllThatALightHas) {
           "(0, -1, 0); color = (1, 1, 1); x_min = -4; x_max = -2; radius = 0.5; } sphere { } }")
           .scene;
   ASSERT_EQ(scene.lights.size(), 2u);
-  const auto& second = std::get<WarnLight>(scene.lights[1].light);
+  const auto& second = *scene.lights[1].light.as<WarnLight>();
   EXPECT_EQ(second.position, (Vec3{0, 2, 0}));
   EXPECT_EQ(second.xMin, -1);
   EXPECT_EQ(second.xMax, 1);
@@ -641,7 +647,7 @@ TEST(RayFormat, RowsMoveAllThatALightHas) {
           "2, 0); u = (1, 0, 0); v = (0, 0, 1); color = (1, 1, 1); } translate(0, 2, 0, sphere { }) }")
           .scene;
   for (std::size_t i = 0; i < 2; ++i) {
-    const auto& panel = std::get<RectangleLight>(sizes.lights.at(i).light);
+    const auto& panel = *sizes.lights.at(i).light.as<RectangleLight>();
     expectNear(panel.position, sizes.objects.at(i).worldFromObject * Vec3{});
     expectNear(panel.u, linear(sizes.objects.at(i).worldFromObject, Vec3{1, 0, 0}));
   }
@@ -662,7 +668,7 @@ TEST(RayFormat, ReadsTheSpotLightsOfStudents) {
         load("spot_light { position = (0, 4, 0); direction = (0, -1, 0); colour = (1, 1, 1); " + fields +
              " } sphere { }");
     EXPECT_TRUE(loaded.warnings.empty()) << fields << ": " << loaded.warnings.front().what;
-    return std::get<SpotLight>(loaded.scene.lights.at(0).light);
+    return *loaded.scene.lights.at(0).light.as<SpotLight>();
   };
   // Half of Blender's angle; what fades is a part of the cone, measured along its axis.
   const SpotLight blender = spot("size = 70; blend = 0.4;");
@@ -687,7 +693,7 @@ TEST(RayFormat, ReadsAndWritesLinksAndFlaps) {
   const Loaded loaded = load(text);
   EXPECT_EQ(loaded.warnings.size(), 0u);
   const LightSource& source = loaded.scene.lights.at(0);
-  const auto& light = std::get<WarnLight>(source.light);
+  const auto& light = *source.light.as<WarnLight>();
   EXPECT_EQ(light.xMin, -2);
   EXPECT_EQ(light.xMax, kInfinity);
   EXPECT_EQ(source.links.name, "key light");

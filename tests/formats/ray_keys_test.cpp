@@ -5,6 +5,7 @@
 #include "geometry/mesh/mesh.h"
 #include "math/keyframes.h"
 #include "ray_helpers.h"
+#include "shading/lights/point_light.h"
 
 namespace trace::ray_keys_test {
 namespace {
@@ -76,7 +77,7 @@ settings { spp = key((0, 1), (2, 9)); }
   const Scene scene = at(1, good);
   EXPECT_EQ(scene.camera.position, Vec3(2, 0, 8));
   EXPECT_EQ(scene.camera.fov, 40);
-  const PointLight& light = std::get<PointLight>(scene.lights.at(0).light);
+  const PointLight& light = *scene.lights.at(0).light.as<PointLight>();
   EXPECT_EQ(light.position, Vec3(0.5, 2, 3));
   EXPECT_EQ(light.color, Color(0.75));
   EXPECT_EQ(scene.objects.at(0).worldFromObject,

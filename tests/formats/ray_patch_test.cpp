@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "base/match.h"
 #include "formats/ray/syntax/syntax.h"
 #include "formats/ray/write/patch.h"
 #include "formats/ray_patch_helpers.h"
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/sphere.h"
+#include "shading/lights/point_light.h"
 #include "shading/textures/brick.h"
 #include "shading/textures/checker.h"
 #include "shading/textures/noise.h"
@@ -59,12 +59,11 @@ TEST(RayPatch, OneChangedFieldOfAnExampleChangesOnlyItsLine) {
     while (last > 0 && !standsAlone(scene.lights, last - 1)) --last;
     if (last > 0)
       expect("light", [&](Scene& s) {
-        match(s.lights[last - 1].light, [](auto& light) {
-          if constexpr (requires { light.color; })
-            light.color = Color(0.25, 0.5, 0.75);
-          else
-            light.position.x += 1;
-        });
+        Light& light = s.lights[last - 1].light;
+        if (Color* color = editableValue<Color>(light, "color"))
+          *color = Color(0.25, 0.5, 0.75);
+        else
+          editableValue<Vec3>(light, "position")->x += 1;
       });
     std::set<std::size_t> kinds;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -88,7 +87,7 @@ TEST(RayPatch, NumbersChangeInTheirPlaceAndCommentsStay) {
                   [](Scene& s) { s.camera.position.z = 12, s.camera.fov = 30; }),
             "camera { position = (0, 0 ,12); /* far */ fov=30 } // end\nsphere { }");
   EXPECT_EQ(after("point_light {\n\tposition /* key */ = // value\n\t\t(1, 2, 3)\n\tcolour = 0.5 }\nsphere{}",
-                  [](Scene& s) { std::get<PointLight>(s.lights[0].light).color = Color(0.75); }),
+                  [](Scene& s) { s.lights[0].light.edit<PointLight>()->color = Color(0.75); }),
             "point_light {\n\tposition /* key */ = // value\n\t\t(1, 2, 3)\n\tcolour = 0.75 }\nsphere{}");
   EXPECT_EQ(after("cone { height = 1; height = 2; bottom_radius = 3; }",  // the last counts
                   [](Scene& s) { shape<Cone>(s, 0).height = 5; }),
@@ -473,7 +472,7 @@ TEST(RayPatch, LightsThatAreCopiesAreChangedTogetherOrTheSceneIsWrittenAnew) {
   const SceneText read = reading("test.ray", kLamps);
   ASSERT_EQ(read.scene->lights.size(), 6u);
   const auto set = [](Scene& s, std::size_t i) -> PointLight& {
-    return std::get<PointLight>(s.lights[i].light);
+    return *s.lights[i].light.edit<PointLight>();
   };
   expectSmall(
       read, "all",
@@ -501,7 +500,7 @@ TEST(RayPatch, LanternsThatAreWrittenAnewAreTheSame) {
   const std::string file = test::sourceFolder() + "/scenes/lanterns.ray";
   const SceneText read = reading(file, readFile(file));
   Scene scene = *read.scene;
-  std::get<PointLight>(scene.lights.back().light).color = Color(0.25, 0.5, 0.75);
+  scene.lights.back().light.edit<PointLight>()->color = Color(0.25, 0.5, 0.75);
   const Saved result = saved(read, scene);
   EXPECT_EQ(result.messages.size(), 1u);
   const SceneText again = reading(file, result.text);

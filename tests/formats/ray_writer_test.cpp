@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <string>
 
-#include "base/match.h"
 #include "base/read_scope.h"
 #include "formats/ray/write/writer.h"
 #include "geometry/mesh/mesh.h"
@@ -135,21 +134,20 @@ TEST(RayWriter, EveryShapeLightAndMaterialFieldRoundTrips) {
     if (heights && heights->file.grid) continue;  // the picture would have to be there; RayFormat reads one
     scene.objects.push_back({"shape", shape, random.affine(3), 0, {}});
   }
-  forEachType<Light>([&]<class L>(L*) {
-    L light;
+  for (const LightType& type : lightTypes()) {
+    Light light(type);
     double value = 0.1;
-    forEachField<L>([&](const auto& f) {
-      auto& member = light.*f.member;
-      if constexpr (requires { member.x; })
+    editEachField(light, [&]<class Value>(const LightField&, Value& member) {
+      if constexpr (std::is_same_v<Value, Vec3>)
         member = {value, 2 * value, 1 / value};
-      else if constexpr (requires { member.r; })
+      else if constexpr (std::is_same_v<Value, Color>)
         member = {value, value / 3, 0};
-      else if constexpr (std::is_same_v<std::remove_reference_t<decltype(member)>, double>)
+      else if constexpr (std::is_same_v<Value, double>)
         member = value;
       value += 0.7;
     });
     scene.lights.push_back({light, {}});
-  });
+  }
   for (const test::NamedModel& m : test::variedModels()) {
     scene.materials.push_back({m.name, m.model, {}});
     scene.objects.push_back({"", Sphere{}, {}, static_cast<std::uint32_t>(scene.materials.size() - 1), {}});

@@ -3,6 +3,8 @@
 
 #include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/point_light.h"
 
 namespace trace::ubc_format_test {
 namespace {
@@ -110,12 +112,12 @@ TEST(Ubc, LightsHaveAnAmbientPartAndHighlightsOfTheirOwn) {
       "PointLight 1 2 3 \"ambient\" [0.1 0.2 0.3] \"diffuse\" [8 8 12] \"specular\" [20 20 20] "
       "\"attenuation\" [1.8 3 0.5]\nPointLight 0 0 0 Material \"m\" Sphere 1 \"m\"");
   ASSERT_EQ(scene.lights.size(), 3u);
-  EXPECT_EQ(std::get<AmbientLight>(scene.lights[0].light).color, Color(0.1, 0.2, 0.3));
-  const auto& light = std::get<PointLight>(scene.lights[1].light);
+  EXPECT_EQ(scene.lights[0].light.as<AmbientLight>()->color, Color(0.1, 0.2, 0.3));
+  const auto& light = *scene.lights[1].light.as<PointLight>();
   EXPECT_EQ(light.position, (Vec3{1, 2, 3}));
   EXPECT_EQ(light.color + light.extraHighlight, Color(20));
   EXPECT_EQ((Vec3{light.constant, light.linear, light.quadratic}), (Vec3{1.8, 3, 0.5}));
-  EXPECT_EQ(std::get<PointLight>(scene.lights[2].light).constant, 1) << "no attenuation at all";
+  EXPECT_EQ(scene.lights[2].light.as<PointLight>()->constant, 1) << "no attenuation at all";
 }
 
 TEST(Ubc, TellsWhereAndWhat) {

@@ -5,6 +5,7 @@
 
 #include "render/picture/explain.h"
 #include "render/picture/passes.h"
+#include "shading/lights/directional_light.h"
 #include "support/scenes.h"
 
 namespace trace::test::adaptive_test {

@@ -11,6 +11,8 @@
 #include "image/srgb.h"
 #include "math/hypothesis.h"
 #include "render/picture/explain.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "shading/materials/conductor.h"
 #include "shading/materials/oren_nayar.h"
 #include "shading/materials/rough_glass.h"

@@ -4,6 +4,9 @@
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/square.h"
 #include "render/photons/photons.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/spot_light.h"
 #include "support/scenes.h"
 
 namespace trace::test::caustics_test {

@@ -6,6 +6,7 @@
 
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
+#include "shading/lights/rectangle_light.h"
 #include "shading/materials/conductor.h"
 #include "support/scenes.h"
 

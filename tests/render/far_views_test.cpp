@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "geometry/mesh/mesh.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/point_light.h"
 #include "support/scenes.h"
 
 namespace trace::test::far_views_test {

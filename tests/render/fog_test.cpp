@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "geometry/shapes/square.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "support/scenes.h"
 
 namespace trace::test::fog_test {

@@ -12,6 +12,9 @@
 #include "geometry/shapes/square.h"
 #include "render/integrators/whitted.h"
 #include "render/rays/ray_tree.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "support/scenes.h"
 
 namespace trace::test::interfaces_test {

@@ -8,6 +8,7 @@
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
 #include "image/srgb.h"
+#include "shading/lights/point_light.h"
 #include "support/rooms.h"
 
 namespace trace::test::light_transport_test {

@@ -6,11 +6,16 @@
 #include <array>
 #include <cmath>
 
-#include "base/match.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/square.h"
 #include "render/lights/lamps.h"
 #include "render/picture/explain.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/projector_light.h"
+#include "shading/lights/rectangle_light.h"
+#include "shading/lights/spot_light.h"
+#include "shading/lights/warn_light.h"
 #include "support/random.h"
 #include "support/rooms.h"
 
@@ -69,8 +74,7 @@ std::vector<Light> someLights(int count, std::uint64_t seed) {
 
 std::vector<LightReach> reachesOf(const std::vector<Light>& lights) {
   std::vector<LightReach> reaches;
-  for (const Light& light : lights)
-    reaches.push_back(match(light, [](const auto& l) { return l.reach({}); }));
+  for (const Light& light : lights) reaches.push_back(light.reach({}));
   return reaches;
 }
 
@@ -113,11 +117,11 @@ TEST(LightTree, NoLightThatReachesAPlaceIsForgotten) {
     for (int k = 0; k < 200; ++k) {
       const Vec3 from = random.inCube(8), normal = random.direction();
       for (std::uint32_t i = 0; i < lights.size(); ++i) {
-        const auto arriving = match(lights[i], [&](const auto& l) { return l.illuminate(from, {}); });
+        const auto arriving = lights[i].illuminate(from, {});
         if (!arriving || isBlack(arriving->intensity())) continue;
         ++lit;
-        EXPECT_GT(tree.probability(from, &normal, i), 0) << lights[i].index();
-        EXPECT_GT(tree.probability(from, nullptr, i), 0) << lights[i].index();
+        EXPECT_GT(tree.probability(from, &normal, i), 0) << lights[i].keyword();
+        EXPECT_GT(tree.probability(from, nullptr, i), 0) << lights[i].keyword();
       }
     }
     EXPECT_GT(lit, 5000);
@@ -186,9 +190,7 @@ Scene manyLights(int count) {
   scene.camera.position = {0, 4, 9}, scene.camera.viewdir = {0, -4, -9};
   for (const Light& light : someLights(count, 2)) {
     Light raised = light;
-    match(raised, [](auto& l) {
-      if constexpr (requires { l.position; }) l.position.y = std::abs(l.position.y) + 0.3;
-    });
+    if (Vec3* position = editableValue<Vec3>(raised, "position")) position->y = std::abs(position->y) + 0.3;
     scene.lights.push_back({raised, {}});
   }
   return scene;

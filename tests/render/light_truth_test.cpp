@@ -10,6 +10,11 @@
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
 #include "render/media/media.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/projector_light.h"
+#include "shading/lights/rectangle_light.h"
+#include "shading/lights/warn_light.h"
 #include "shading/materials/principled.h"
 #include "shading/materials/thin_glass.h"
 #include "support/lights.h"
@@ -226,7 +231,7 @@ TEST(LightTruth, APaneTakesNoBounceOfTheLightThatCrossesIt) {
     expectAllShow(scene, settings, 0.02, depth > 0);
     // Pale shadows, and a highlight of its own.
     scene.materials[0].model.edit<Phong>()->shadow = 0.5;
-    std::get<PointLight>(scene.lights[0].light).extraHighlight = Color(0.5);
+    scene.lights[0].light.edit<PointLight>()->extraHighlight = Color(0.5);
     expectAllShow(scene, settings, 0.02, depth > 0);
   }
 }
@@ -352,8 +357,8 @@ TEST(LightTruth, NarrowLampsShineThroughGlass) {
   for (const Light& light : {Light(projector), Light(warn), Light(point)}) {
     const Scene scene = behindPane(light);
     const Real expected = meanOf(scene, IntegratorKind::path, 256);
-    ASSERT_GT(expected, 1e-4) << light.index();
-    EXPECT_NEAR(meanOf(scene, IntegratorKind::bdpt, 1024) / expected, 1, 0.03) << light.index();
+    ASSERT_GT(expected, 1e-4) << light.keyword();
+    EXPECT_NEAR(meanOf(scene, IntegratorKind::bdpt, 1024) / expected, 1, 0.03) << light.keyword();
   }
 }
 

@@ -9,6 +9,12 @@
 #include "math/warp.h"
 #include "render/lights/lamps.h"
 #include "render/picture/explain.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/goniometric_light.h"
+#include "shading/lights/portal.h"
+#include "shading/lights/projector_light.h"
+#include "shading/lights/rectangle_light.h"
+#include "shading/lights/warn_light.h"
 #include "support/random.h"
 #include "support/rooms.h"
 
@@ -230,8 +236,8 @@ TEST(LightPhotons, BringWhatTheLightsGive) {
     settings.spp = 256;
     const Color photons = meanColor(picture(scene, settings));
     EXPECT_GT(path.g, 0.01);
-    EXPECT_NEAR(photons.r / path.r, 1, 0.04) << light.index();
-    EXPECT_NEAR(photons.b / path.b, 1, 0.04) << light.index();
+    EXPECT_NEAR(photons.r / path.r, 1, 0.04) << light.keyword();
+    EXPECT_NEAR(photons.b / path.b, 1, 0.04) << light.keyword();
   }
 }
 

@@ -12,6 +12,8 @@
 #include "render/photons/photons.h"
 #include "render/picture/agreement.h"
 #include "render/picture/explain.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "shading/textures/noise.h"
 #include "support/random.h"
 #include "support/rooms.h"

@@ -9,6 +9,8 @@
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
 #include "render/picture/explain.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "shading/medium.h"
 #include "shading/textures/checker.h"
 #include "shading/textures/gradient.h"

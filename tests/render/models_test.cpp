@@ -8,6 +8,7 @@
 #include "geometry/shapes/square.h"
 #include "render/integrators/whitted.h"
 #include "render/picture/explain.h"
+#include "shading/lights/directional_light.h"
 #include "shading/materials/conductor.h"
 #include "shading/materials/lambert.h"
 #include "shading/materials/marschner.h"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/shapes/plane.h"
+#include "shading/light_list.h"
 #include "support/lights.h"
 #include "support/rooms.h"
 #include "support/shapes.h"
@@ -98,7 +99,7 @@ TEST(NumberRange, MeshesAreLeftOut) {
 }
 
 TEST(NumberRange, LightsOfEveryKindAreLeftOut) {
-  forEachType<Light>([&]<class Kind>(Kind*) {
+  forEachType<LightList>([&]<class Kind>(Kind*) {
     forEachField<Kind>([&](const auto& field) {
       for (const Real bad : kBad) {
         if (field.keyword == "position" && bad < 1) continue;

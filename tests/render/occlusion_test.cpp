@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/shapes/square.h"
+#include "shading/lights/ambient_light.h"
 #include "support/scenes.h"
 
 namespace trace::test::occlusion_test {

@@ -3,6 +3,7 @@
 
 #include "geometry/shapes/square.h"
 #include "render/picture/explain.h"
+#include "shading/lights/point_light.h"
 #include "support/random.h"
 #include "support/rooms.h"
 

@@ -6,6 +6,7 @@
 
 #include "geometry/shapes/cube.h"
 #include "render/picture/agreement.h"
+#include "shading/lights/point_light.h"
 #include "shading/material_list.h"
 #include "support/rooms.h"
 

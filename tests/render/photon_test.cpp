@@ -5,6 +5,8 @@
 #include "geometry/shapes/square.h"
 #include "render/photons/photons.h"
 #include "render/picture/explain.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "shading/materials/conductor.h"
 #include "shading/materials/thin_glass.h"
 #include "support/quarters.h"

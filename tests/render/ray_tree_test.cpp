@@ -12,6 +12,7 @@
 #include "geometry/shapes/square.h"
 #include "render/picture/explain.h"
 #include "render/rays/visited_boxes.h"
+#include "shading/lights/directional_light.h"
 #include "support/scenes.h"
 
 namespace trace::test::ray_tree_test {

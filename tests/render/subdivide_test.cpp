@@ -8,6 +8,7 @@
 #include "render/picture/explain.h"
 #include "render/picture/passes.h"
 #include "render/samples/pixel.h"
+#include "shading/lights/directional_light.h"
 #include "support/scenes.h"
 
 namespace trace::test::subdivide_test {

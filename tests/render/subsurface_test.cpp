@@ -9,6 +9,8 @@
 #include "geometry/shapes/sphere.h"
 #include "render/photons/photons.h"
 #include "render/picture/explain.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "shading/materials/subsurface.h"
 #include "support/half_space.h"
 #include "support/rooms.h"

@@ -5,6 +5,7 @@
 
 #include "math/warp.h"
 #include "render/picture/explain.h"
+#include "shading/lights/directional_light.h"
 #include "support/ball.h"
 #include "support/scenes.h"
 

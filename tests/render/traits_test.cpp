@@ -7,6 +7,8 @@
 
 #include "geometry/shapes/sphere.h"
 #include "scene/options.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/point_light.h"
 #include "support/rooms.h"
 
 namespace trace::test::traits_test {

@@ -7,6 +7,8 @@
 #include "geometry/shapes/square.h"
 #include "render/picture/agreement.h"
 #include "scene/conventions.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/rectangle_light.h"
 #include "shading/materials/conductor.h"
 #include "support/rooms.h"
 

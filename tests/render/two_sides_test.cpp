@@ -6,6 +6,8 @@
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "support/ball.h"
 #include "support/materials.h"
 #include "support/rooms.h"

@@ -13,6 +13,7 @@
 #include "image/srgb.h"
 #include "render/chains/metropolis.h"
 #include "render/picture/agreement.h"
+#include "shading/lights/rectangle_light.h"
 #include "shading/materials/conductor.h"
 #include "shading/materials/oren_nayar.h"
 #include "shading/materials/rough_glass.h"

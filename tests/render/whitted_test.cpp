@@ -7,6 +7,9 @@
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
 #include "geometry/shapes/square.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "shading/optics.h"
 #include "support/scenes.h"
 

@@ -13,6 +13,7 @@
 #include "geometry/shapes/supertoroid.h"
 #include "geometry/shapes/torus.h"
 #include "geometry/traced.h"
+#include "shading/lights/directional_light.h"
 #include "support/scenes.h"
 
 namespace trace::test::world_test {

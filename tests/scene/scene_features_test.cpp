@@ -6,6 +6,11 @@
 #include <set>
 
 #include "scene/options.h"
+#include "shading/lights/goniometric_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/projector_light.h"
+#include "shading/lights/spot_light.h"
+#include "shading/lights/warn_light.h"
 
 namespace trace::test {
 namespace {
@@ -67,7 +72,7 @@ TEST(SceneFeatures, ALightThatIsOffIsAPointLightThere) {
   spot.constant = 0.1, spot.linear = 0.2, spot.quadratic = 0.3, spot.radius = 0.4;
   const auto light = lightWithout(spot, only("spot_light"));
   ASSERT_TRUE(light.has_value());
-  const auto* point = std::get_if<PointLight>(&*light);
+  const auto* point = light->as<PointLight>();
   ASSERT_NE(point, nullptr);
   EXPECT_EQ(point->position, spot.position);
   EXPECT_EQ(point->color, spot.color);

@@ -3,6 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/projector_light.h"
+#include "shading/lights/rectangle_light.h"
+#include "shading/lights/spot_light.h"
+#include "shading/lights/warn_light.h"
+
 namespace trace {
 namespace {
 
@@ -68,6 +75,39 @@ TEST(Light, WithoutASizeItIsWhereItWas) {
   EXPECT_FALSE(PointLight{}.hasSize() || DirectionalLight{}.hasSize() || SpotLight{}.hasSize());
   const PointLight light{.position = {3, 0, 4}, .color = Color(1)};
   EXPECT_EQ(light.illuminate({}, {}, {0.1, 0.9})->toLight, light.illuminate({}, {}, {0.7, 0.3})->toLight);
+}
+
+TEST(Light, GeometryIsThatOfTheFields) {
+  for (const LightType& type : lightTypes()) {
+    SCOPED_TRACE(type.keyword);
+    const Light light(type);
+    EXPECT_EQ(geometryOf(light).starts, type.starts);
+    EXPECT_EQ(findValue<Real>(light, "radius") != nullptr, type.starts == LightOrigin::ball);
+    EXPECT_EQ(findValue<bool>(light, "visible") != nullptr, type.seen != nullptr);
+    if (type.starts == LightOrigin::none) EXPECT_FALSE(light.illuminate({0, 0, 1}, {}));
+  }
+  const LightGeometry spot = geometryOf(
+      SpotLight{.position = {1, 2, 3}, .direction = {0, -2, 0}, .angle = 60, .fullAngle = 60, .radius = 0.5});
+  EXPECT_EQ(spot.position, (Vec3{1, 2, 3}));
+  EXPECT_EQ(spot.radius, 0.5);
+  ASSERT_TRUE(spot.cone);
+  EXPECT_EQ(spot.cone->axis, (Vec3{0, -1, 0}));
+  EXPECT_NEAR(spot.cone->cosine, 0.5, 1e-15);
+  const LightGeometry panel = geometryOf(RectangleLight{.u = {3, 0, 0}, .v = {0, 0, 2}, .round = true});
+  EXPECT_EQ(panel.u, (Vec3{3, 0, 0}));
+  EXPECT_EQ(panel.v, (Vec3{0, 0, 2}));
+  EXPECT_TRUE(panel.round && !panel.twoSided && !panel.cone);
+}
+
+TEST(Light, CopiesShareUntilOneIsEdited) {
+  const Light first = PointLight{.color = Color(1)};
+  Light second = first;
+  EXPECT_EQ(second, first);
+  EXPECT_EQ(second.as<PointLight>(), first.as<PointLight>());
+  *editableValue<Real>(second, "radius") = 1;
+  EXPECT_TRUE(second.hasSize() && !first.hasSize());
+  EXPECT_FALSE(second == first);
+  EXPECT_FALSE(second.as<SpotLight>() || second.edit<SpotLight>());
 }
 
 // --- Warn's light -------------------------------------------------------------------------------------

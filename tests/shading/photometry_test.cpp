@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "shading/lights/goniometric_light.h"
 #include "shading/lights/light.h"
 
 namespace trace {

@@ -4,7 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include "shading/lights/directional_light.h"
 #include "shading/lights/light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/rectangle_light.h"
+#include "shading/lights/spot_light.h"
 
 namespace trace::test {
 

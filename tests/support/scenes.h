@@ -5,6 +5,8 @@
 #include "render/integrators/make_integrator.h"
 #include "render/picture/passes.h"
 #include "render/picture/render.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
 #include "support/shapes.h"
 
 namespace trace::test {

@@ -8,7 +8,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "base/match.h"
 #include "geometry/mesh/mesh.h"
 #include "render/rays/ray_tree.h"
 #include "scene/conventions.h"
@@ -47,8 +46,8 @@ void changeIndices(Scene& scene, const std::function<Real(Real)>& change) {
     });
 }
 
-void changeLights(Scene& scene, const auto& change) {
-  for (LightSource& source : scene.lights) match(source.light, [&](auto& light) { change(light); });
+void changeLights(Scene& scene, const std::function<void(Light&)>& change) {
+  for (LightSource& source : scene.lights) change(source.light);
 }
 
 /// change(data) of all meshes, each data once.
@@ -165,11 +164,11 @@ class Variants {
     edit("without diffuse light", [](Scene& scene) { setFields(scene, "diffuse", Color(0)); });
     edit("without emission", [](Scene& scene) { setFields(scene, "emissive", Color(0)); });
     edit("without attenuation by distance", [](Scene& scene) {
-      changeLights(scene, [](auto& light) {
-        if constexpr (requires { light.quadratic; }) {
-          light.constant = 1;
-          light.linear = light.quadratic = 0;
-        }
+      changeLights(scene, [](Light& light) {
+        if (light.type().starts != LightOrigin::ball) return;
+        *editableValue<Real>(light, "constant_attenuation_coeff") = 1;
+        *editableValue<Real>(light, "linear_attenuation_coeff") = 0;
+        *editableValue<Real>(light, "quadratic_attenuation_coeff") = 0;
       });
     });
     edit("with glass that does not bend light",
@@ -178,9 +177,10 @@ class Variants {
       changeIndices(scene, [&](Real index) { return s.airIndex * s.airIndex / index; });
     });
     edit("with directional lights from the opposite side", [](Scene& scene) {
-      changeLights(scene, [](auto& light) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(light)>, DirectionalLight>)
-          light.direction = -light.direction;
+      changeLights(scene, [](Light& light) {
+        if (light.type().starts != LightOrigin::parallel) return;
+        Vec3& direction = *editableValue<Vec3>(light, "direction");
+        direction = -direction;
       });
     });
     edit("with flat triangles, without the normals of their corners",

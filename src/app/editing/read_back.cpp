@@ -6,6 +6,7 @@
 #include "formats/ray/write/same.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/shapes/height_field.h"
+#include "shading/lights/goniometric_light.h"
 
 namespace trace {
 namespace {
@@ -35,7 +36,7 @@ Scene withoutNames(Scene scene) {
   for (Material& material : scene.materials) material.name.clear();
   changePixels(scene, [](Pixels& pixels) { pixels.file.clear(); });
   for (LightSource& source : scene.lights)
-    if (auto* light = std::get_if<GoniometricLight>(&source.light)) light->file.file.clear();
+    if (auto* light = source.light.edit<GoniometricLight>()) light->file.file.clear();
   return scene;
 }
 

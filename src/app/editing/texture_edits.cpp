@@ -11,26 +11,27 @@
 namespace trace {
 namespace {
 
-/// Calls visit(file) with each photometry of the scene.
-template <class AScene, class Visit>
-void eachPhotometry(AScene& scene, const Visit& visit) {
-  for (auto& source : scene.lights)
-    match(source.light, [&](auto& light) {
-      if constexpr (requires { light.file.data; }) visit(light.file);
-    });
+bool lacksFile(const Pixels& pixels) { return !pixels.map && !pixels.file.empty(); }
+bool lacksFile(const PhotometryFile& file) { return !file.data && !file.file.empty(); }
+
+/// A picture or a photometric file.
+bool lacksFile(const Light& light) {
+  bool lacks = false;
+  forEachField(light, [&]<class Value>(const LightField&, const Value& value) {
+    if constexpr (requires { lacksFile(value); }) lacks |= lacksFile(value);
+  });
+  return lacks;
 }
 
-bool lacksPicture(const Pixels& pixels) { return !pixels.map && !pixels.file.empty(); }
-
-/// The picture files that a texture lacks, or one in it.
-bool lacksPicture(const Texture& texture) {
+/// A picture of the texture, or of one in it.
+bool lacksFile(const Texture& texture) {
   bool own = false;
   forEachField(texture->model, [&]<class Value>(const TextureField&, const Value& value) {
-    if constexpr (std::is_same_v<Value, Pixels>) own |= lacksPicture(value);
+    if constexpr (std::is_same_v<Value, Pixels>) own |= lacksFile(value);
   });
   if (own) return true;
   for (const FieldTexture& input : texture->inputs)
-    if (lacksPicture(input.texture)) return true;
+    if (lacksFile(input.texture)) return true;
   return false;
 }
 
@@ -89,26 +90,26 @@ std::string whyIdle(const TextureModel& model, std::string_view field) {
 bool lacksFiles(const Scene& scene) {
   bool lacks = false;
   for (const Material& material : scene.materials)
-    for (const FieldTexture& t : material.textures) lacks |= lacksPicture(t.texture);
-  for (const LightSource& source : scene.lights)
-    match(source.light, [&](const auto& light) {
-      if constexpr (requires { light.file.map; }) lacks |= lacksPicture(light.file);
-    });
+    for (const FieldTexture& t : material.textures) lacks |= lacksFile(t.texture);
+  for (const LightSource& source : scene.lights) lacks |= lacksFile(source.light);
   const Background& b = scene.background;
   for (const Pixels* face : {&b.front, &b.back, &b.left, &b.right, &b.top, &b.bottom})
-    lacks |= lacksPicture(*face);
-  eachPhotometry(scene, [&](const PhotometryFile& file) { lacks |= !file.data && !file.file.empty(); });
+    lacks |= lacksFile(*face);
   return lacks;
 }
 
 void readLackingFiles(Scene& scene, Messages& messages) {
   if (!loadTextures(scene, messages)) throw Error(Fault::scene, messages.all().back().what);
-  eachPhotometry(scene, [&](PhotometryFile& file) {
-    if (file.data || file.file.empty()) return;
+  const auto readPhotometry = [&](PhotometryFile& file) {
+    if (!lacksFile(file)) return;
     const std::string path = pictureFile(scene.file, file.file);
     file.data =
         std::make_shared<const Photometry>(readIes(path, readBeside("", path, scene.inputs), messages));
-  });
+  };
+  for (LightSource& source : scene.lights)
+    editEachField(source.light, [&]<class Value>(const LightField&, Value& value) {
+      if constexpr (std::is_same_v<Value, PhotometryFile>) readPhotometry(value);
+    });
 }
 
 }  // namespace trace

@@ -44,7 +44,7 @@ ExplainedTerm explained(const Term& term, const Scene& scene) {
   ExplainedTerm result;
   const auto ofLight = [&](std::uint32_t light) {
     result.light = lightName(scene, light);
-    result.lightKind = match(scene.lights[light].light, [](const auto& source) { return source.kKeyword; });
+    result.lightKind = scene.lights[light].light.keyword();
     result.lightPlace = scene.lights[light].place;
   };
   if (term.light) ofLight(term.light->light);

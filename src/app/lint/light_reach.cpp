@@ -13,7 +13,6 @@
 
 #include "app/lint/checks.h"
 #include "base/budget.h"
-#include "base/match.h"
 #include "math/low_discrepancy.h"
 #include "math/perpendicular.h"
 #include "render/integrators/make_integrator.h"
@@ -69,7 +68,7 @@ class LightSearch {
         bounces_(hasTrait(settings, Trait::bounces)),
         seen_(world.objectCount()) {
     for (std::uint32_t i = 0; i < world.lights().size(); ++i)
-      if (!isSeen(world.lights()[i])) silent_.push_back({i});
+      if (!world.lights()[i].visible()) silent_.push_back({i});
   }
 
   std::vector<SilentLight> find() {
@@ -93,14 +92,6 @@ class LightSearch {
     return !silent_.empty() && asked_ < kMostPlaces;
   }
 
-  /// Rays see the light itself.
-  static bool isSeen(const Light& light) {
-    return match(light, [](const auto& l) {
-      if constexpr (requires { l.visible; }) return l.visible;
-      return false;
-    });
-  }
-
   /// A path from the camera: all that its ray hits, and one ray on from there.
   void follow(Ray ray, std::optional<Hit> hit, Interfaces inside, const Sampler& sampler) {
     for (int depth = 0; hit && depth <= std::min(settings_.depth, kDeepest) && !silent_.empty(); ++depth) {
@@ -122,7 +113,7 @@ class LightSearch {
 
   /// Follows one ray of the light: the points that it lights, and where the path continues.
   void fromLight(std::uint32_t number, int i) {
-    Ray ray = rayOf(world_.lights()[number], i);
+    Ray ray = rayOf(number, i);
     Interfaces inside = pixels_.tracer().interfacesAt(ray.origin);
     const Sampler sampler(rules_, i % kSeen.width, i / kSeen.width, 0);
     std::optional<Hit> hit = pixels_.tracer().cast(ray, RayKind::bounce, inside);
@@ -171,29 +162,19 @@ class LightSearch {
 
   /// Rays of a spot light spread over its cone, those of other lights with a place over the sphere; those of
   /// the sun cross the scene.
-  Ray rayOf(const Light& light, int i) const {
+  Ray rayOf(std::uint32_t number, int i) const {
     const Vec2 u = sobolPoint(static_cast<std::uint32_t>(i));
-    return match(light, [&](const auto& l) -> Ray {
-      if constexpr (requires { l.position; }) {
-        if constexpr (requires {
-                        l.angle;
-                        l.direction;
-                      })
-          return {l.position, toCone(u, normalize(l.direction), std::cos(l.angle * kPi / 180))};
-        else
-          return {l.position, toCone(u, {0, 0, 1}, -1)};
-      } else if constexpr (requires { l.direction; }) {
-        const Box3& box = world_.bounds();
-        const bool known = !box.empty() && isFinite(box.size());
-        const Vec3 middle = known ? box.center() : world_.camera().eye;
-        const Vec3 along = normalize(l.direction), aside = perpendicularTo(along);
-        const Real reach = known ? length(box.size()) : 1;
-        const Vec2 at{(u.x - 0.5) * reach, (u.y - 0.5) * reach};
-        return {middle - along * reach + aside * at.x + cross(along, aside) * at.y, along};
-      } else {
-        return {world_.camera().eye, world_.camera().ahead};
-      }
-    });
+    const LightGeometry& light = world_.lightGeometry(number);
+    if (light.starts != LightOrigin::parallel)
+      return {light.position,
+              light.cone ? toCone(u, light.cone->axis, light.cone->cosine) : toCone(u, {0, 0, 1}, -1)};
+    const Box3& box = world_.bounds();
+    const bool known = !box.empty() && isFinite(box.size());
+    const Vec3 middle = known ? box.center() : world_.camera().eye;
+    const Vec3 along = world_.lights()[number].reach(world_.rules()).axis, aside = perpendicularTo(along);
+    const Real reach = known ? length(box.size()) : 1;
+    const Vec2 at{(u.x - 0.5) * reach, (u.y - 0.5) * reach};
+    return {middle - along * reach + aside * at.x + cross(along, aside) * at.y, along};
   }
 
   void ask(const Interaction& at, const Sampler& sampler) {
@@ -257,10 +238,8 @@ void lightReachesNothing(const LintScene& s, Findings& findings) {
   for (const SilentLight& light : LightSearch(sparseOf(s.settings), s.world).find()) {
     if (light.asked < kFewPlaces) continue;
     const LightSource& source = s.scene.lights[s.world.lightSource(light.number)];
-    const bool isOff = match(source.light, [](const auto& l) {
-      if constexpr (requires { l.color; }) return isBlack(l.color);
-      return true;
-    });
+    const Color* color = source.light.color();
+    const bool isOff = !color || isBlack(*color);
     const bool isSaid = std::any_of(findings.begin(), findings.end(), [&](const LintFinding& finding) {
       const Place& place = finding.message.place;
       return finding.check == "unlit" || (place.line == source.place.line && place.file == source.place.file);

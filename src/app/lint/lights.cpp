@@ -7,12 +7,14 @@
 
 #include "app/lint/checks.h"
 #include "app/session/render_warnings.h"
-#include "base/match.h"
 #include "base/text.h"
 #include "geometry/shapes/csg_tree.h"
 #include "geometry/traced.h"
 #include "math/box.h"
 #include "scene/integrators.h"
+#include "shading/lights/goniometric_light.h"
+#include "shading/lights/rectangle_light.h"
+#include "shading/lights/warn_light.h"
 
 namespace trace::lint_checks {
 namespace {
@@ -21,17 +23,12 @@ constexpr Real kHalfALevel = 0.5 / 255;
 
 /// Where a lamp stands; null for panels and for what is far away.
 const Vec3* positionOf(const Light& light) {
-  return match(light, [](const auto& l) -> const Vec3* {
-    if constexpr (requires { l.radius; }) return &l.position;
-    return nullptr;
-  });
+  return light.type().starts == LightOrigin::ball ? light.position() : nullptr;
 }
 
 Color lightColor(const Light& light) {
-  return match(light, [](const auto& l) {
-    if constexpr (requires { l.color; }) return l.color;
-    return Color(0);
-  });
+  const Color* color = light.color();
+  return color ? *color : Color(0);
 }
 
 }  // namespace
@@ -126,14 +123,14 @@ void lightBlocked(const LintScene& s, Findings& findings) {
 void lightCut(const LintScene& s, Findings& findings) {
   for (const LightSource& source : s.scene.lights) {
     if (maxComponent(lightColor(source.light)) == 0) continue;  // it is switched off
-    if (const auto* measured = std::get_if<GoniometricLight>(&source.light)) {
+    if (const auto* measured = source.light.as<GoniometricLight>()) {
       if (measured->file.data && measured->file.data->brightest() == 0)
         warn(findings, "light-cut", source.place,
              "the photometric file of this light has no light: all its candelas are 0",
              "use the file of a lamp that is on, or a point_light");
       continue;
     }
-    const auto* studio = std::get_if<WarnLight>(&source.light);
+    const auto* studio = source.light.as<WarnLight>();
     if (!studio) continue;
     const Box3 open = studio->open();
     if (open.empty()) {
@@ -158,7 +155,7 @@ void lightCut(const LintScene& s, Findings& findings) {
 void lightFacesAway(const LintScene& s, Findings& findings) {
   if (s.settings.fog > 0 || s.scene.objects.empty()) return;  // fog itself is lit
   for (const LightSource& source : s.scene.lights) {
-    const auto* panel = std::get_if<RectangleLight>(&source.light);
+    const auto* panel = source.light.as<RectangleLight>();
     if (!panel || panel->twoSided || isBlack(panel->color)) continue;
     const Vec3 across = cross(panel->u, panel->v);
     if (!(length(across) > 0)) continue;

@@ -8,6 +8,7 @@
 #include "math/warp.h"
 #include "render/world/hit.h"
 #include "shading/lights/panel.h"
+#include "shading/lights/portal.h"
 
 namespace trace::lint_checks {
 namespace {
@@ -33,7 +34,7 @@ bool leaves(const World& world, const Ray& ray) { return !firstOpaque(world, ray
 
 bool isThroughPortal(const World& world, const Ray& ray) {
   return std::any_of(world.portals().begin(), world.portals().end(),
-                     [&](const Portal& portal) { return meetsPanel(portal, ray).has_value(); });
+                     [&](const LightGeometry& portal) { return meetsPanel(portal, ray).has_value(); });
 }
 
 void lookFrom(const World& world, const Ray& ray, const Found& found, std::uint64_t seed, PortalLook& look) {
@@ -70,7 +71,7 @@ PortalLook lookThrough(const World& world, const Portal& portal) {
 
 void portalUseless(const LintScene& s, Findings& findings) {
   for (const LightSource& source : s.scene.lights) {
-    const auto* portal = std::get_if<Portal>(&source.light);
+    const auto* portal = source.light.as<Portal>();
     if (!portal) continue;
     if (!s.world.outside().isSeenBy(RayKind::bounce)) {
       warn(findings, "portal", source.place, "the portal changes nothing: the environment is black",

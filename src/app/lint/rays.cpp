@@ -5,11 +5,11 @@
 #include <cstdlib>
 
 #include "base/budget.h"
-#include "base/match.h"
 #include "geometry/mesh/mesh.h"
 #include "image/tone.h"
 #include "math/perpendicular.h"
 #include "render/samples/pixel.h"
+#include "shading/lights/spot_light.h"
 
 namespace trace {
 namespace {
@@ -72,11 +72,11 @@ Real strongestAround(const World& world, const Light& light, const Vec3& positio
     const std::optional<Found> found = world.closest(ray, Faces::both, uncounted);
     if (!found) return;
     const Vec3 there = position + direction * found->t;
-    if (const auto arriving = match(light, [&](const auto& l) { return l.illuminate(there, world.rules()); }))
+    if (const auto arriving = light.illuminate(there, world.rules()))
       strongest = std::max(strongest, maxComponent(arriving->intensity()));
   };
   for (int i = 0; i < kDirections; ++i) look(direction(i));
-  if (const auto* spot = std::get_if<SpotLight>(&light)) look(normalize(spot->direction));
+  if (const auto* spot = light.as<SpotLight>()) look(normalize(spot->direction));
   return strongest;
 }
 

@@ -9,6 +9,8 @@
 
 namespace trace {
 
+struct SpotLight;
+
 /// The objects that enclose the point on all sides: a ray from it crosses each an odd number of times, in
 /// every one of many directions. So an open surface encloses nothing.
 std::vector<std::uint32_t> objectsAround(const World& world, const Vec3& point);

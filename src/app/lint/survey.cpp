@@ -9,6 +9,7 @@
 #include "image/tone.h"
 #include "render/integrators/make_integrator.h"
 #include "render/samples/pixel.h"
+#include "shading/lights/spot_light.h"
 
 namespace trace {
 namespace {
@@ -85,7 +86,7 @@ class Surveyor {
  public:
   Surveyor(const Scene& scene, const World& world) : world_(world) {
     for (const LightSource& source : scene.lights)
-      if (const auto* spot = std::get_if<SpotLight>(&source.light)) spots_.push_back(*spot);
+      if (const auto* spot = source.light.as<SpotLight>()) spots_.push_back(*spot);
     survey_.objects.resize(scene.objects.size());
     survey_.lights.resize(scene.lights.size());
     survey_.picture = Picture(kWidth, kHeight);

@@ -8,6 +8,7 @@
 #include "app/session/darkness.h"
 #include "app/session/missing_caustic.h"
 #include "scene/integrators.h"
+#include "shading/lights/spot_light.h"
 
 namespace trace::lint_checks {
 
@@ -32,7 +33,7 @@ bool spotsOnNothing(const LintScene& s, Findings& findings) {
   bool found = false;
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
     const LightSource& source = s.scene.lights[i];
-    const auto* spot = std::get_if<SpotLight>(&source.light);
+    const auto* spot = source.light.as<SpotLight>();
     const bool isOff = spot && maxComponent(spot->color) == 0;
     if (!spot || isOff || s.survey.lights[i].places > 0 || shinesOnSomething(s.world, *spot)) continue;
     found = true;

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/budget.h"
-#include "base/match.h"
 #include "base/text.h"
 #include "formats/kind_defaults.h"
 #include "geometry/traced.h"
@@ -19,6 +18,7 @@
 #include "render/samples/integrator.h"
 #include "scene/integrators.h"
 #include "scene/options.h"
+#include "shading/lights/point_light.h"
 
 namespace trace {
 namespace {
@@ -126,19 +126,10 @@ std::string rounded(const Vec3& v) {
   return "(" + one(v.x) + ", " + one(v.y) + ", " + one(v.z) + ")";
 }
 
-const Color* colorOfLight(const Light& light) {
-  return match(light, [](const auto& l) -> const Color* {
-    if constexpr (requires { l.color; }) return &l.color;
-    return nullptr;
-  });
-}
-
 /// It fades with the square of the distance, as point lights do unless they say otherwise.
 bool fades(const Light& light) {
-  return match(light, [](const auto& l) {
-    if constexpr (requires { l.quadratic; }) return l.quadratic > 0;
-    return false;
-  });
+  const Real* quadratic = findValue<Real>(light, "quadratic_attenuation_coeff");
+  return quadratic && *quadratic > 0;
 }
 
 struct Cure {
@@ -156,7 +147,7 @@ std::optional<Cure> strongerLight(const Scene& scene, const Settings& settings, 
   double most = 0;
   std::size_t tried = 0;
   for (const LightSource& source : scene.lights) {
-    const Color* color = colorOfLight(source.light);
+    const Color* color = source.light.color();
     if (!color || isBlack(*color) || ++tried > kMostTried) continue;
     Lit lit{base, seenWith(scene, settings, world, {source}, seen)};
     double sum = 0;

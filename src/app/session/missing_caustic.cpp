@@ -2,35 +2,21 @@
 
 #include <algorithm>
 
-#include "base/match.h"
 #include "scene/integrators.h"
 
 namespace trace {
 namespace {
 
 /// Paths may hit the light: it has a size, and they see it.
-bool isMet(const Light& light) {
-  return match(light, [](const auto& l) {
-    if constexpr (requires { l.visible; }) return l.visible && l.hasSize();
-    return false;
-  });
-}
+bool isMet(const Light& light) { return light.visible() && light.hasSize(); }
 
-bool hasSize(const Light& light) {
-  return match(light, [](const auto& l) { return l.hasSize(); });
-}
-
-bool canBeVisible(const Light& light) {
-  return match(light, [](const auto& l) {
-    return requires { l.visible; };
-  });
-}
+bool canBeVisible(const Light& light) { return light.type().seen != nullptr; }
 
 std::string reasonOf(const Settings& settings, const Light& light) {
   if (!hasTrait(settings, Trait::bounces))
     return "--integrator " + std::string(rowOf(settings).name) + " follows no light that bounces";
   if (isMet(light)) return "shadow rays run straight through glass";
-  if (!hasSize(light)) return "the light has no size, so no path hits it";
+  if (!light.hasSize()) return "the light has no size, so no path hits it";
   return canBeVisible(light) ? "the light is not visible, so no path hits it"
                              : "rays do not see a light of this kind, so no path hits it";
 }
@@ -48,8 +34,7 @@ bool gathersLight(const World& world, std::uint32_t object, bool byGlassAlone) {
 
 bool shinesOn(const Scene& scene, const World& world, std::uint32_t light, std::uint32_t object) {
   const Vec3 middle = world.boundsOf(object).center();
-  const auto arriving =
-      match(scene.lights[light].light, [&](const auto& l) { return l.illuminate(middle, world.rules()); });
+  const auto arriving = scene.lights[light].light.illuminate(middle, world.rules());
   return isFinite(middle) && arriving && !isBlack(arriving->intensity());
 }
 
@@ -73,7 +58,7 @@ std::optional<MissingCaustic> missingCaustic(
           "200000";
       if (met)
         hint += "; path finds them with many samples and --glass-shadows black";
-      else if (canBeVisible(light) && hasSize(light))
+      else if (canBeVisible(light) && light.hasSize())
         hint +=
             "; visible = true in the light lets path find them with many samples and --glass-shadows black";
       return MissingCaustic{i, object, reasonOf(settings, light), std::move(hint)};

@@ -36,7 +36,7 @@ bool isDark(const Scene& scene, const World& world) {
 
 bool hasSun(const Scene& scene) {
   return std::any_of(scene.lights.begin(), scene.lights.end(),
-                     [](const LightSource& l) { return std::holds_alternative<DirectionalLight>(l.light); });
+                     [](const LightSource& l) { return l.light.type().starts == LightOrigin::parallel; });
 }
 
 /// Some rays of the camera hit nothing, or some that continue from where they end, in any direction: in a

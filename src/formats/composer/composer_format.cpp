@@ -22,6 +22,10 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
 #include "geometry/shapes/sphere.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/spot_light.h"
 
 namespace trace {
 namespace {

@@ -4,7 +4,6 @@
 #include <set>
 #include <utility>
 
-#include "base/match.h"
 #include "base/text.h"
 #include "formats/composer/composer_file.h"
 #include "formats/composer/composer_format.h"
@@ -14,6 +13,14 @@
 #include "geometry/shapes/sphere.h"
 #include "scene/displacement.h"
 #include "scene/options.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/goniometric_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/projector_light.h"
+#include "shading/lights/rectangle_light.h"
+#include "shading/lights/spot_light.h"
+#include "shading/lights/warn_light.h"
 #include "shading/textures/image_map.h"
 
 namespace trace {
@@ -28,8 +35,7 @@ class Writer {
 
   cf::File write() {
     view();
-    for (const LightSource& source : scene_.lights)
-      match(source.light, [&](const auto& light) { add(light); });
+    for (const LightSource& source : scene_.lights) addLight(source.light);
     if (!(scene_.background == Background{})) warn("the background is left out: the format has none");
     for (const Object& object : scene_.objects) add(object);
     const bool nothing = file_.objects.empty() && !scene_.objects.empty();
@@ -59,6 +65,13 @@ class Writer {
 
   // --- lights ---
 
+  /// Ambient light is in the materials (see material()), and portals give no light.
+  void addLight(const Light& light) {
+    const bool isKnown = visitAs<PointLight, DirectionalLight, SpotLight, RectangleLight, WarnLight,
+                                 ProjectorLight, GoniometricLight>(light, [&](const auto& l) { add(l); });
+    if (!isKnown && light.type().starts != LightOrigin::none)
+      warn(std::string(light.keyword()) + " is left out: the format has none");
+  }
   void add(const PointLight& light) {
     fading(light);
     if (!isBlack(light.extraHighlight)) warn("the colours of highlights of their own are left out");
@@ -106,10 +119,6 @@ class Writer {
     warn("lights with photometric files become uniform point lights");
     file_.lamps.push_back({.kind = cf::Lamp::Kind::point, .position = light.position, .color = light.color});
   }
-  /// It is in the materials; see material().
-  void add(const AmbientLight&) {}
-  /// It gives no light.
-  void add(const Portal&) {}
 
   template <class L>
   void fading(const L& light) {
@@ -138,7 +147,7 @@ class Writer {
     }
     Color ambientLight;
     for (const LightSource& source : scene_.lights)
-      if (const auto* light = std::get_if<AmbientLight>(&source.light)) ambientLight += light->color;
+      if (const auto* light = source.light.as<AmbientLight>()) ambientLight += light->color;
 
     cf::Material m;
     m.ktran = std::clamp((p.transmissive.r + p.transmissive.g + p.transmissive.b) / 3, 0.0, 1.0);

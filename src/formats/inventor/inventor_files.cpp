@@ -1,6 +1,4 @@
 // Objects and lights that other files bring into a scene.
-#include <variant>
-
 #include "base/file.h"
 #include "base/named_file.h"
 #include "base/read_scope.h"
@@ -15,12 +13,9 @@ namespace {
 
 /// A light that stands in another file, where that file stands.
 Light moved(Light light, const Affine& worldFromFile) {
-  std::visit(
-      [&](auto& l) {
-        if constexpr (requires { l.position; }) l.position = worldFromFile * l.position;
-        if constexpr (requires { l.direction; }) l.direction = linear(worldFromFile, l.direction);
-      },
-      light);
+  if (Vec3* position = editableValue<Vec3>(light, "position")) *position = worldFromFile * *position;
+  if (Vec3* direction = editableValue<Vec3>(light, "direction"))
+    *direction = linear(worldFromFile, *direction);
   return light;
 }
 

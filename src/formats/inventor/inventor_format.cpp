@@ -4,6 +4,8 @@
 
 #include "formats/inventor/inventor_reader.h"
 #include "formats/model.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
 
 namespace trace {
 namespace inventor {

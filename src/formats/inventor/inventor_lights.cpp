@@ -8,6 +8,9 @@
 #include "formats/inventor/inventor_reader.h"
 #include "formats/inventor/inventor_sky.h"
 #include "formats/inventor/inventor_transform.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/spot_light.h"
 
 namespace trace::inventor {
 

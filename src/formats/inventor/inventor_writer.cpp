@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "base/match.h"
 #include "base/text.h"
 #include "formats/inventor/inventor_format.h"
 #include "formats/mesh/world_meshes.h"
@@ -18,6 +17,14 @@
 #include "geometry/shapes/sphere.h"
 #include "scene/displacement.h"
 #include "scene/options.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/goniometric_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/projector_light.h"
+#include "shading/lights/rectangle_light.h"
+#include "shading/lights/spot_light.h"
+#include "shading/lights/warn_light.h"
 #include "shading/textures/image_map.h"
 
 namespace trace {
@@ -42,8 +49,7 @@ class InventorWriter {
     out_ = vrml_ ? "#VRML V1.0 ascii\n" : "#Inventor V2.1 ascii\n";
     out_ += "# written by Trace\nSeparator {\n";
     camera();
-    for (const LightSource& source : scene_.lights)
-      match(source.light, [&](const auto& light) { add(light); });
+    for (const LightSource& source : scene_.lights) addLight(source.light);
     if (!vrml_ && environments_ == 0) environment(1, 0, 0);
     if (!(scene_.background == Background{})) warn("the background is left out: the format has none");
     for (const Object& object : scene_.objects) add(object);
@@ -118,7 +124,7 @@ class InventorWriter {
   void environment(Real constant, Real linear, Real quadratic) {
     Color ambient;
     for (const LightSource& source : scene_.lights)
-      if (const auto* light = std::get_if<AmbientLight>(&source.light)) ambient += light->color;
+      if (const auto* light = source.light.as<AmbientLight>()) ambient += light->color;
     ++environments_;
     open("Environment");
     field("ambientIntensity", {most(ambient)});
@@ -153,6 +159,14 @@ class InventorWriter {
     close();
   }
 
+  /// Portals give no light.
+  void addLight(const Light& light) {
+    const bool isKnown =
+        visitAs<PointLight, DirectionalLight, SpotLight, RectangleLight, WarnLight, ProjectorLight,
+                GoniometricLight, AmbientLight>(light, [&](const auto& l) { add(l); });
+    if (!isKnown && light.type().starts != LightOrigin::none)
+      warn(std::string(light.keyword()) + " is left out: the format has none");
+  }
   void add(const PointLight& light) {
     fading(light);
     if (!isBlack(light.extraHighlight)) warn("the colours of highlights of their own are left out");
@@ -195,8 +209,6 @@ class InventorWriter {
     if (vrml_ && !isBlack(light.color))
       warn("the ambient light is left out: VRML 1.0 has no word for it, a .iv file has");
   }
-  /// It gives no light.
-  void add(const Portal&) {}
 
   // --- looks ---
 

@@ -6,6 +6,9 @@
 #include "base/text.h"
 #include "formats/directions.h"
 #include "formats/mesh/gltf_values.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/spot_light.h"
 
 namespace trace {
 

@@ -5,6 +5,8 @@
 
 #include "base/text.h"
 #include "formats/directions.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/point_light.h"
 
 namespace trace::ubc {
 namespace {

@@ -131,7 +131,7 @@ Vec3 Lamps::towardSky(const Vec3& from, Real which, const Vec2& u) const {
 Real Lamps::skyDensity(const Ray& ray) const {
   const Real tableShare = this->tableShare();
   Real density = tableShare > 0 ? tableShare * sky_.density(ray.direction) : 0;
-  for (const Portal& portal : portals_)
+  for (const LightGeometry& portal : portals_)
     if (const auto t = meetsPanel(portal, ray)) {
       const Real area = std::abs(dot(cross(portal.u, portal.v), ray.direction));  // as seen from there
       density += (1 - tableShare) * *t * *t / (area * static_cast<Real>(portals_.size()));

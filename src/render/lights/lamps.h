@@ -153,7 +153,7 @@ class Lamps {
   bool isPlain(const Tracer& tracer, const Place& place, const Interfaces& inside) const;
 
   SkyTable sky_;
-  std::vector<Portal> portals_;
+  std::vector<LightGeometry> portals_;
   std::vector<Part> parts_;
   std::vector<BodyLamp> bodies_;
   LightTree tree_;  ///< over the parts, where they are many

@@ -6,7 +6,6 @@
 #include "image/srgb.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
-#include "render/lights/light_kinds.h"
 #include "render/lights/parallel_light.h"
 #include "shading/lights/panel.h"
 #include "shading/scattering.h"
@@ -31,12 +30,9 @@ struct Ball {
     return sine2 < 1 ? solidAngle(std::sqrt(1 - sine2)) : 0;
   }
 };
-std::optional<Ball> ballOf(const Light& light) {
-  return match(light, [](const auto& l) -> std::optional<Ball> {
-    if constexpr (PointOrBall<std::remove_cvref_t<decltype(l)>>)
-      if (l.radius > 0) return Ball{l.position, l.radius};
-    return {};
-  });
+std::optional<Ball> ballOf(const LightGeometry& light) {
+  if (light.starts != LightOrigin::ball || !(light.radius > 0)) return {};
+  return Ball{light.position, light.radius};
 }
 
 }  // namespace
@@ -51,18 +47,16 @@ LightStarts::LightStarts(const World& world, const Lamps& lamps) : lamps_(&lamps
   Real sum = 0;
   for (std::size_t i = 0; i < lights_.size(); ++i) {
     Source& source = lights_[i];
-    match(world.lights()[i], [&](const auto& l) {
-      if constexpr (PointOrBall<std::remove_cvref_t<decltype(l)>>) {
-        const Vec3 way = middle_ - l.position;
-        const Real away2 = dot(way, way), sine2 = radius_ * radius_ / away2;
-        source.axis = away2 > 0 ? normalize(way) : Vec3{0, 0, 1};
-        if (sine2 < 1 && !(l.radius > 0)) source.cosine = std::sqrt(1 - sine2);
-        // The cone in which it shines, if that is narrower.
-        const LightReach reach = l.reach(world.rules());
-        const Real cosine = std::cos(std::min(reach.around + reach.beyond, kPi));
-        if (cosine > source.cosine && cosine < 1) source.cosine = cosine, source.axis = reach.axis;
-      }
-    });
+    if (const LightGeometry& light = world.lightGeometry(i); light.starts == LightOrigin::ball) {
+      const Vec3 way = middle_ - light.position;
+      const Real away2 = dot(way, way), sine2 = radius_ * radius_ / away2;
+      source.axis = away2 > 0 ? normalize(way) : Vec3{0, 0, 1};
+      if (sine2 < 1 && !(light.radius > 0)) source.cosine = std::sqrt(1 - sine2);
+      // The cone in which it shines, if that is narrower.
+      const LightReach reach = world.lights()[i].reach(world.rules());
+      const Real cosine = std::cos(std::min(reach.around + reach.beyond, kPi));
+      if (cosine > source.cosine && cosine < 1) source.cosine = cosine, source.axis = reach.axis;
+    }
     sum += source.share = powerOf(world, i);
   }
   lampShare_ = lamps.power();
@@ -79,8 +73,7 @@ LightStarts::LightStarts(const World& world, const Lamps& lamps) : lamps_(&lamps
   constexpr Real kLeast = 0.02;  // least share of all, for all lights together
   const Real least = sum > 0 ? kLeast * sum / static_cast<Real>(lights_.size()) : 1;
   for (std::size_t i = 0; i < lights_.size(); ++i) {
-    const bool shines =
-        match(world.lights()[i], [&](const auto& l) { return l.reach(world.rules()).power > 0; });
+    const bool shines = world.lights()[i].reach(world.rules()).power > 0;
     if (!shines || lights_[i].share >= least) continue;
     sum += least - lights_[i].share;
     lights_[i].share = least;
@@ -94,26 +87,24 @@ LightStarts::LightStarts(const World& world, const Lamps& lamps) : lamps_(&lamps
 
 /// About what the light sends to the scene.
 Real LightStarts::powerOf(const World& world, std::size_t light) const {
-  return match(world.lights()[light], [&](const auto& l) -> Real {
-    using Kind = std::remove_cvref_t<decltype(l)>;
-    constexpr std::uint32_t kLooks = 64;
-    const Rules& rules = world.rules();
-    Real power = 0;
-    if constexpr (PointOrBall<Kind> || PanelLight<Kind>) {
-      Vec3 axis{0, 0, 1};
-      Real cosine = -1;
-      if constexpr (PointOrBall<Kind>) axis = lights_[light].axis, cosine = lights_[light].cosine;
-      const Real away = std::clamp(length(middle_ - l.position), radius_ / 2, 4 * radius_);
-      for (std::uint32_t n = 0; n < kLooks; ++n) {
-        const auto arriving = l.illuminate(l.position + toCone(sobolPoint(n, 0), axis, cosine) * away, rules);
-        if (arriving)
-          power += luminanceOf(arriving->intensity()) * kPi * away * away * solidAngle(cosine) / kLooks;
-      }
-    } else if (const auto arriving = l.illuminate(middle_, rules)) {
-      power = luminanceOf(arriving->intensity()) * kPi / diskDensity();
+  constexpr std::uint32_t kLooks = 64;
+  const LightGeometry& l = world.lightGeometry(light);
+  Real power = 0;
+  if (l.starts == LightOrigin::ball || l.starts == LightOrigin::panel) {
+    Vec3 axis{0, 0, 1};
+    Real cosine = -1;
+    if (l.starts == LightOrigin::ball) axis = lights_[light].axis, cosine = lights_[light].cosine;
+    const Real away = std::clamp(length(middle_ - l.position), radius_ / 2, 4 * radius_);
+    for (std::uint32_t n = 0; n < kLooks; ++n) {
+      const auto arriving =
+          world.illuminate(light, l.position + toCone(sobolPoint(n, 0), axis, cosine) * away);
+      if (arriving)
+        power += luminanceOf(arriving->intensity()) * kPi * away * away * solidAngle(cosine) / kLooks;
     }
-    return power;
-  });
+  } else if (const auto arriving = world.illuminate(light, middle_)) {
+    power = luminanceOf(arriving->intensity()) * kPi / diskDensity();
+  }
+  return power;
 }
 
 Ray LightStarts::before(Tracer& tracer, const Vec3& direction, const Vec2& u) const {
@@ -154,31 +145,37 @@ std::optional<LightStarts::Start> LightStarts::fromLight(Tracer& tracer, std::si
   start.light = light;
   start.onLight = u;
   Real density = 0;  // density of the direction, or of the place across parallel light
-  match(world.lights()[light], [&](const auto& l) {
-    using Kind = std::remove_cvref_t<decltype(l)>;
-    if constexpr (PanelLight<Kind>) {
+  const LightGeometry& l = world.lightGeometry(light);
+  switch (l.starts) {
+    case LightOrigin::panel: {
       Vec3 normal = normalize(cross(l.u, l.v));
       const bool back = l.twoSided && sampler.branch(kChoice).branch(0).next() < 0.5;
       if (back) normal = -normal;
       const Vec3 local = cosineDirection(v);
       start.ray = {placeOn(l, u), Frame{normal}.basis().toWorld(local)};
       density = cosineDensity(local) * (l.twoSided ? 0.5 : 1);
-    } else if constexpr (PointOrBall<Kind>) {
-      if (l.radius > 0) {
+      break;
+    }
+    case LightOrigin::ball:
+      if (const auto ball = ballOf(l)) {
         const Vec3 normal = sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y), local = cosineDirection(v);
         start.ray = {l.position + normal * l.radius, Frame{normal}.basis().toWorld(local)};
         start.cosine = local.z;
-        density = cosineDensity(local) / Ball{l.position, l.radius}.area();
+        density = cosineDensity(local) / ball->area();
       } else {
         start.ray = {l.position, toCone(v, source.axis, source.cosine)};
         density = 1 / solidAngle(source.cosine);
       }
-    } else if (const auto arriving = l.illuminate({}, world.rules(), u)) {
-      start.ray = before(tracer, -arriving->toLight, v);
-      start.parallel = true;
-      density = diskDensity();
-    }
-  });
+      break;
+    case LightOrigin::parallel:
+      if (const auto arriving = world.illuminate(light, {}, u)) {
+        start.ray = before(tracer, -arriving->toLight, v);
+        start.parallel = true;
+        density = diskDensity();
+      }
+      break;
+    case LightOrigin::none: break;
+  }
   if (!(density > 0)) return {};
   start.density = density * source.share;
   start.inside = tracer.interfacesAt(start.ray.origin);
@@ -197,7 +194,7 @@ std::optional<LightStarts::Arrival> LightStarts::arrives(const World& world, con
                    1 / start.density};
   const auto arriving = world.illuminate(start.light, at, start.onLight);
   if (!arriving) return {};
-  const auto ball = ballOf(world.lights()[start.light]);
+  const auto ball = ballOf(world.lightGeometry(start.light));
   if (!ball) return Arrival{arriving->intensity() * (kPi * away2 / start.density), 1 / start.density, 0};
   // Its radiance to there is what arrives over the solid angle.
   const Real angle = ball->angleFrom(at);
@@ -249,22 +246,22 @@ Real LightStarts::overAsked(const World& world, std::size_t light, const Illumin
                             const Vec3& at) const {
   const Source& source = lights_.empty() ? Source{} : lights_[light];
   if (!(source.share > 0)) return 0;
-  const auto ball = ballOf(world.lights()[light]);
+  const LightGeometry& l = world.lightGeometry(light);
   const Real away2 = arriving.distance * arriving.distance;
-  return source.share * match(world.lights()[light], [&](const auto& l) -> Real {
-           using Kind = std::remove_cvref_t<decltype(l)>;
-           if constexpr (PanelLight<Kind>) {
-             const Real facing = std::abs(dot(arriving.toLight, normalize(cross(l.u, l.v))));
-             return facing / (kPi * away2) * (l.twoSided ? 0.5 : 1);
-           } else if constexpr (PointOrBall<Kind>) {
-             if (ball) return ball->angleFrom(at) / (ball->area() * kPi);
-             return dot(-arriving.toLight, source.axis) >= source.cosine
-                        ? 1 / (solidAngle(source.cosine) * away2)
-                        : 0;
-           } else {
-             return diskDensity(at, arriving.toLight);
-           }
-         });
+  switch (l.starts) {
+    case LightOrigin::panel: {
+      const Real facing = std::abs(dot(arriving.toLight, normalize(cross(l.u, l.v))));
+      return source.share * (facing / (kPi * away2) * (l.twoSided ? 0.5 : 1));
+    }
+    case LightOrigin::ball: {
+      if (const auto ball = ballOf(l)) return source.share * (ball->angleFrom(at) / (ball->area() * kPi));
+      const bool isInCone = dot(-arriving.toLight, source.axis) >= source.cosine;
+      return source.share * (isInCone ? 1 / (solidAngle(source.cosine) * away2) : 0);
+    }
+    case LightOrigin::parallel: return source.share * diskDensity(at, arriving.toLight);
+    case LightOrigin::none: break;
+  }
+  return 0;
 }
 
 Real LightStarts::overAsked(const Lamps::Place& place, const Vec3& at) const {

@@ -1,7 +1,6 @@
 #include "render/photons/photon_emitter.h"
 
 #include "math/warp.h"
-#include "render/lights/light_kinds.h"
 #include "render/lights/parallel_light.h"
 #include "render/paths/interaction.h"
 #include "shading/lights/panel.h"
@@ -10,26 +9,13 @@ namespace trace {
 namespace {
 
 /// The place of a light that two numbers choose, as its illuminate() does; nothing of parallel light.
-std::optional<Vec3> startOnLight(const Light& light, const Vec2& u) {
-  return match(light, [&](const auto& l) -> std::optional<Vec3> {
-    using Kind = std::remove_cvref_t<decltype(l)>;
-    if constexpr (PanelLight<Kind>) {
-      return placeOn(l, u);
-    } else if constexpr (PointOrBall<Kind>) {
-      return l.position + sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y) * l.radius;
-    } else {
-      return {};
-    }
-  });
-}
-
-/// The axis of what a spot lights, and the cosine of its angle.
-std::optional<std::pair<Vec3, Real>> coneOfSpot(const Light& light) {
-  return match(light, [&](const auto& l) -> std::optional<std::pair<Vec3, Real>> {
-    if constexpr (requires { l.angle, l.direction, l.radius; })
-      if (!(l.radius > 0)) return std::pair{normalize(l.direction), std::cos(l.angle * kPi / 180)};
-    return {};
-  });
+std::optional<Vec3> startOnLight(const LightGeometry& light, const Vec2& u) {
+  switch (light.starts) {
+    case LightOrigin::panel: return placeOn(light, u);
+    case LightOrigin::ball:
+      return light.position + sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y) * light.radius;
+    default: return {};
+  }
 }
 
 }  // namespace
@@ -64,13 +50,15 @@ void PhotonEmitter::send(const PhotonSource& source, std::uint32_t n, LandedPhot
 std::optional<PhotonEmitter::Flight> PhotonEmitter::fromLight(const PhotonSource& source) {
   const std::size_t light = source.light;
   const Vec2 place = world_.lightHasSize(light) ? pair(1) : kCenter;
-  const std::optional<Vec3> point = startOnLight(world_.lights()[light], place);
+  const LightGeometry& geometry = world_.lightGeometry(light);
+  const std::optional<Vec3> point = startOnLight(geometry, place);
   std::optional<PhotonAim> aim;
   if (point) {
-    const auto cone = onlyCaustics_ ? std::nullopt : coneOfSpot(world_.lights()[light]);
+    const bool isPoint = !onlyCaustics_ && !(geometry.radius > 0);
+    const LightCone* cone = isPoint && geometry.cone ? &*geometry.cone : nullptr;
     aim = aimFrom(*point, targets_, pair(3).x, pair(2));
-    if (aim && cone && 2 * kPi * (1 - cone->second) < aim->share)  // narrower than what there is to light
-      aim = PhotonAim{{*point, toCone(pair(2), cone->first, cone->second)}, 2 * kPi * (1 - cone->second)};
+    if (aim && cone && 2 * kPi * (1 - cone->cosine) < aim->share)  // narrower than what there is to light
+      aim = PhotonAim{{*point, toCone(pair(2), cone->axis, cone->cosine)}, 2 * kPi * (1 - cone->cosine)};
   } else if (const auto arriving = world_.illuminate(light, {}, place)) {
     aim = aimAlong(-arriving->toLight, targets_, world_.bounds(), pair(3).x, pair(2));
     if (aim) aim->ray.origin = startOfParallel(tracer_, aim->ray.origin, aim->ray.direction);

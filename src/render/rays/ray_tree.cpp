@@ -216,7 +216,7 @@ std::string materialNames(const Scene& scene, const std::vector<MaterialShare>& 
 std::string lightName(const Scene& scene, std::uint32_t index) {
   const LightSource& source = scene.lights[index];
   if (!source.links.name.empty()) return source.links.name;
-  return named(match(source.light, [](const auto& light) { return light.kKeyword; }), source.place);
+  return named(source.light.keyword(), source.place);
 }
 
 std::string_view sentence(const DarkTerm& dark) {

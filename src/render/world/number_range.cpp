@@ -27,18 +27,14 @@ bool isInRange(const Box3& box) {
 }
 
 bool isInRange(const Light& light) {
-  return match(light, [](const auto& l) {
-    bool inRange = true;
-    using Kind = std::remove_cvref_t<decltype(l)>;
-    forEachField<Kind>([&](const auto& field) {
-      const auto& value = l.*field.member;
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Vec3>)
-        inRange &= field.keyword == "position" ? isShortEnough(value) : isLength(value);
-      else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, Real>)
-        inRange &= field.keyword != "radius" || isLength(value);
-    });
-    return inRange;
+  bool inRange = true;
+  forEachField(light, [&]<class Value>(const LightField& field, const Value& value) {
+    if constexpr (std::is_same_v<Value, Vec3>)
+      inRange &= field.keyword == "position" ? isShortEnough(value) : isLength(value);
+    else if constexpr (std::is_same_v<Value, Real>)
+      inRange &= field.keyword != "radius" || isLength(value);
   });
+  return inRange;
 }
 
 bool isInRange(const Material& material) {

@@ -216,11 +216,11 @@ class World {
   /// The light that arrives at a point from the light of that number, if nothing is in the way: from the
   /// place of the light that `u` chooses, two numbers from 0 up to 1.
   std::optional<Illumination> illuminate(std::size_t light, const Vec3& from, const Vec2& u = kCenter) const {
-    return match(lights_[light], [&](const auto& l) { return l.illuminate(from, rules_, u); });
+    return lights_[light].illuminate(from, rules_, u);
   }
-  bool lightHasSize(std::size_t light) const {
-    return match(lights_[light], [](const auto& l) { return l.hasSize(); });
-  }
+  bool lightHasSize(std::size_t light) const { return lights_[light].hasSize(); }
+  /// Where its rays start.
+  const LightGeometry& lightGeometry(std::size_t light) const { return lightGeometries_[light]; }
   /// The light of that number lights the object.
   bool lights(std::size_t light, std::uint32_t object) const {
     const std::vector<bool>& lit = litObjects_[light];
@@ -228,7 +228,7 @@ class World {
   }
   /// A choice among lights().
   const LightTree& lightTree() const { return *lightTree_; }
-  const std::vector<Portal>& portals() const { return portals_; }
+  const std::vector<LightGeometry>& portals() const { return portals_; }
   /// A light that a ray hits.
   struct Lamp {
     std::uint32_t light;  ///< its place in Scene::lights
@@ -386,12 +386,13 @@ class World {
        hasTwoSided_ = false;
   Rules rules_;
   std::vector<Light> lights_;
+  std::vector<LightGeometry> lightGeometries_;
   std::vector<std::uint32_t> lightSources_;
   std::vector<std::vector<bool>> litObjects_;  ///< by each light; none: all
   std::vector<std::uint32_t> visibleLights_;
   std::shared_ptr<const Bvh> visibleBoxes_;  ///< over these
   std::shared_ptr<const LightTree> lightTree_;
-  std::vector<Portal> portals_;
+  std::vector<LightGeometry> portals_;
   bool nestedGlass_ = false;
   std::vector<std::uint32_t> glass_;  ///< solid objects that light passes, where a ray may start in one
   std::vector<MediumBody> media_;

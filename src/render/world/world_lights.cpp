@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <set>
 
-#include "base/match.h"
 #include "render/world/number_range.h"
 #include "render/world/world.h"
 #include "scene/scene_features.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/portal.h"
 
 namespace trace {
 namespace {
@@ -50,20 +51,25 @@ void World::addLights(const Scene& scene, const Settings& settings, Messages& me
       leftOut.add(source.place);
       continue;
     }
-    match(lightWithout(source.light, settings.switchedOff).value_or(source.light),
-          Overloaded{[&](const AmbientLight& light) { ambient_ += light.color * settings.ambientScale; },
-                     [&](const Portal& portal) { portals_.push_back(portal); },
-                     [&](const auto& light) {
-                       if constexpr (requires { light.visible; })
-                         if (light.visible) {
-                           visibleLights_.push_back(static_cast<std::uint32_t>(lights_.size()));
-                           boxes.push_back(light.reach(rules_).box);
-                         }
-                       lights_.push_back(light);
-                       lightSources_.push_back(i);
-                       litObjects_.push_back(litBy(source.links, scene.objects));
-                       reaches.push_back(light.reach(rules_));
-                     }});
+    const Light light = lightWithout(source.light, settings.switchedOff).value_or(source.light);
+    if (const auto* ambient = light.as<AmbientLight>()) {
+      ambient_ += ambient->color * settings.ambientScale;
+      continue;
+    }
+    const LightGeometry geometry = geometryOf(light);
+    if (light.is<Portal>()) {
+      portals_.push_back(geometry);
+      continue;
+    }
+    const LightReach& reach = reaches.emplace_back(light.reach(rules_));
+    if (light.visible()) {
+      visibleLights_.push_back(static_cast<std::uint32_t>(lights_.size()));
+      boxes.push_back(reach.box);
+    }
+    lights_.push_back(light);
+    lightGeometries_.push_back(geometry);
+    lightSources_.push_back(i);
+    litObjects_.push_back(litBy(source.links, scene.objects));
   }
   leftOut.warn(messages);
   lightTree_ = std::make_shared<const LightTree>(reaches);
@@ -76,10 +82,7 @@ std::optional<World::Lamp> World::nearestLamp(const Ray& ray, Real t) const {
   NodeCount nodes;
   visibleBoxes_->query(ray.origin, ray.direction, t, true, nodes, [&](std::uint32_t item) {
     const std::uint32_t number = visibleLights_[item];
-    const auto seen = match(lights_[number], [&](const auto& light) -> std::optional<LightSeen> {
-      if constexpr (requires { light.seen(ray, rules_); }) return light.seen(ray, rules_);
-      return {};
-    });
+    const auto seen = lights_[number].seen(ray, rules_);
     if (!seen || !(seen->t < t || (nearest && seen->t == t && number < first))) return false;
     t = seen->t;
     first = number;

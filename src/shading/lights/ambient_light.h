@@ -8,6 +8,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/light_geometry.h"
 #include "shading/lights/light_reach.h"
 
 namespace trace {
@@ -15,6 +16,7 @@ namespace trace {
 struct AmbientLight {
   static constexpr std::string_view kKeyword = "ambient_light";
   static constexpr std::string_view kHelp = "light from everywhere, without shadows; all of them are added";
+  static constexpr LightOrigin kStarts = LightOrigin::none;
 
   Color color{};
 

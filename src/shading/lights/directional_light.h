@@ -8,6 +8,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/light_geometry.h"
 #include "shading/lights/light_reach.h"
 
 namespace trace {
@@ -15,6 +16,7 @@ namespace trace {
 struct DirectionalLight {
   static constexpr std::string_view kKeyword = "directional_light";
   static constexpr std::string_view kHelp = "parallel light from infinitely far away";
+  static constexpr LightOrigin kStarts = LightOrigin::parallel;
 
   Vec3 direction{0, 0, -1};
   Color color{};

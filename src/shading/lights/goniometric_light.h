@@ -10,6 +10,7 @@
 #include "base/field.h"
 #include "shading/lights/illumination.h"
 #include "shading/lights/lamp_fields.h"
+#include "shading/lights/light_geometry.h"
 #include "shading/lights/light_reach.h"
 #include "shading/lights/photometry.h"
 
@@ -19,6 +20,7 @@ struct GoniometricLight {
   static constexpr std::string_view kKeyword = "goniometric_light";
   static constexpr std::string_view kHelp =
       "measured light from a point, by an IES file; attenuated like a point light";
+  static constexpr LightOrigin kStarts = LightOrigin::ball;
 
   Vec3 position{};
   Vec3 direction{0, -1, 0};

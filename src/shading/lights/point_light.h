@@ -9,6 +9,7 @@
 #include "base/field.h"
 #include "shading/lights/illumination.h"
 #include "shading/lights/lamp_fields.h"
+#include "shading/lights/light_geometry.h"
 #include "shading/lights/light_reach.h"
 #include "shading/lights/light_seen.h"
 
@@ -18,6 +19,7 @@ struct PointLight {
   static constexpr std::string_view kKeyword = "point_light";
   static constexpr std::string_view kHelp =
       "light from a point, attenuated by 1 / (a + b d + c d^2) at distance d";
+  static constexpr LightOrigin kStarts = LightOrigin::ball;
 
   Vec3 position{};
   Color color{};

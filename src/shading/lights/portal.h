@@ -7,6 +7,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/light_geometry.h"
 #include "shading/lights/light_reach.h"
 
 namespace trace {
@@ -15,6 +16,7 @@ struct Portal {
   static constexpr std::string_view kKeyword = "portal";
   static constexpr std::string_view kHelp =
       "a window to the environment, which is sampled through it; it emits nothing";
+  static constexpr LightOrigin kStarts = LightOrigin::none;
 
   Vec3 position{};
   Vec3 u{1, 0, 0}, v{0, 1, 0};

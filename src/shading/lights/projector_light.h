@@ -10,6 +10,7 @@
 #include "base/field.h"
 #include "shading/lights/illumination.h"
 #include "shading/lights/lamp_fields.h"
+#include "shading/lights/light_geometry.h"
 #include "shading/lights/light_reach.h"
 #include "shading/pixels.h"
 
@@ -18,6 +19,7 @@ namespace trace {
 struct ProjectorLight {
   static constexpr std::string_view kKeyword = "projector_light";
   static constexpr std::string_view kHelp = "a picture projected from a point, as by a slide projector";
+  static constexpr LightOrigin kStarts = LightOrigin::ball;
 
   Vec3 position{};
   Vec3 direction{0, 0, -1};
@@ -103,12 +105,5 @@ struct ProjectorLight {
     return reach;
   }
 };
-
-/// Changes every picture of the light: change(Pixels&).
-template <class L, class Change>
-void changePixels(L& light, const Change& change) requires requires {
-  light.file.map;
-}
-{ change(light.file); }
 
 }  // namespace trace

@@ -8,6 +8,7 @@
 
 #include "base/field.h"
 #include "shading/lights/illumination.h"
+#include "shading/lights/light_geometry.h"
 #include "shading/lights/light_reach.h"
 #include "shading/lights/light_seen.h"
 #include "shading/lights/panel.h"
@@ -19,6 +20,7 @@ struct RectangleLight {
   static constexpr std::string_view kHelp =
       "light from a rectangle with the same radiance in every direction; its falloff follows from its solid "
       "angle";
+  static constexpr LightOrigin kStarts = LightOrigin::panel;
 
   Vec3 position{};
   Vec3 u{1, 0, 0}, v{0, 1, 0};

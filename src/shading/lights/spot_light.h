@@ -9,6 +9,7 @@
 #include "base/field.h"
 #include "shading/lights/illumination.h"
 #include "shading/lights/lamp_fields.h"
+#include "shading/lights/light_geometry.h"
 #include "shading/lights/light_reach.h"
 
 namespace trace {
@@ -16,6 +17,7 @@ namespace trace {
 struct SpotLight {
   static constexpr std::string_view kKeyword = "spot_light";
   static constexpr std::string_view kHelp = "light from a point into a cone, attenuated like a point light";
+  static constexpr LightOrigin kStarts = LightOrigin::ball;
 
   Vec3 position{};
   Vec3 direction{0, 0, -1};

@@ -11,6 +11,7 @@
 #include "base/field.h"
 #include "shading/lights/illumination.h"
 #include "shading/lights/lamp_fields.h"
+#include "shading/lights/light_geometry.h"
 #include "shading/lights/light_reach.h"
 
 namespace trace {
@@ -19,6 +20,7 @@ struct WarnLight {
   static constexpr std::string_view kKeyword = "warn_light";
   static constexpr std::string_view kHelp =
       "studio light: a power of the cosine to its axis, cut by a cone and by six flaps";
+  static constexpr LightOrigin kStarts = LightOrigin::ball;
 
   Vec3 position{};
   Vec3 direction{0, 0, -1};

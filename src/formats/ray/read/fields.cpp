@@ -172,12 +172,18 @@ bool assignField(Findings& findings, Shape& target, const Item& field) {
 bool assignField(Findings& findings, MaterialModel& target, const Item& field) {
   return assignTo(findings, target, field, canonical(field.key()));
 }
+bool assignField(Findings& findings, Light& target, const Item& field) {
+  return assignTo(findings, target, field, canonical(field.key()));
+}
 bool assignField(Findings& findings, TextureModel& target, const Item& field) {
   return assignTo(findings, target, field, canonical(field.key()));
 }
 
 void checkRange(Findings& findings, const Shape& target, const Item& field) {
   checkRangeOf(findings, target, field, canonical(field.key(), target.keyword()), target.keyword());
+}
+void checkRange(Findings& findings, const Light& target, const Item& field) {
+  checkRangeOf(findings, target, field, canonical(field.key()), target.keyword());
 }
 void checkRange(Findings& findings, const MaterialModel& target, const Item& field, std::string_view owner) {
   checkRangeOf(findings, target, field, canonical(field.key()), owner);

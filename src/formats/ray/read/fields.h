@@ -18,6 +18,7 @@
 #include "math/color.h"
 #include "math/vec.h"
 #include "shading/formula_text.h"
+#include "shading/lights/light.h"
 #include "shading/lights/photometry.h"
 #include "shading/material.h"
 #include "shading/pixels.h"
@@ -169,6 +170,7 @@ bool assignField(Findings& findings, Struct& target, const Item& field) {
   return found;
 }
 bool assignField(Findings& findings, Shape& target, const Item& field);
+bool assignField(Findings& findings, Light& target, const Item& field);
 bool assignField(Findings& findings, MaterialModel& target, const Item& field);
 bool assignField(Findings& findings, TextureModel& target, const Item& field);
 
@@ -211,6 +213,7 @@ void checkRange(Findings& findings, const Struct& target, const Item& field,
   });
 }
 void checkRange(Findings& findings, const Shape& target, const Item& field);
+void checkRange(Findings& findings, const Light& target, const Item& field);
 void checkRange(Findings& findings, const MaterialModel& target, const Item& field, std::string_view owner);
 void checkRange(Findings& findings, const TextureModel& target, const Item& field, std::string_view owner);
 

@@ -5,14 +5,15 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "base/match.h"
 #include "base/text.h"
 #include "formats/ray/read/fields.h"
 #include "shading/lights/light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/spot_light.h"
+#include "shading/lights/warn_light.h"
 
 namespace trace::rayfile {
 namespace {
@@ -67,18 +68,9 @@ class StudentSpot {
   bool sharp_ = false;
 };
 
-/// Calls visit(a null pointer to the type) for the type of light with that keyword; false if none has
-/// it.
-template <class Visit>
-bool withLight(std::string_view keyword, Visit&& visit) {
-  bool found = false;
-  if (keyword == kAreaLight) keyword = PointLight::kKeyword;
-  forEachType<Light>([&]<class T>(T* type) {
-    if (T::kKeyword != keyword) return;
-    found = true;
-    visit(type);
-  });
-  return found;
+/// The type of light with that keyword; null if none has it.
+const LightType* typeCalled(std::string_view keyword) {
+  return findLightType(keyword == kAreaLight ? PointLight::kKeyword : keyword);
 }
 
 /// Fields that a light cannot do without, if it has them. Of a kind with defaults, a light is white.
@@ -90,107 +82,99 @@ bool isRequired(std::string_view field, bool isOfKind) {
 /// shows intensity / pi, and the intensity is power / (4 pi).
 constexpr Real kPowerOfOne = 4 * kPi * kPi;
 
-template <class L>
-bool checkDirection(Findings& findings, const Item& call, const L& light) {
-  if constexpr (requires { light.direction; }) {
-    const Real l = length(light.direction);
-    if (l > 0 && std::isfinite(l)) return true;
-    findings.error(call,
-                   std::string(L::kKeyword) + ": expected a direction, found one of length " + toText(l));
-    return false;
-  }
-  return true;
-}
+std::string lightWord(const Light& light) { return std::string(light.keyword()); }
 
-/// A panel whose sides are parallel, or 0, has no area and gives no light.
-template <class L>
-void checkArea(Findings& findings, const Item& call, const L& light) {
-  if constexpr (requires { light.u, light.v; })
-    if (!(length(cross(light.u, light.v)) > 0))
-      findings.warn(call,
-                    std::string(L::kKeyword) + ": expected sides u and v that are not parallel: it is dark");
-}
-
-/// True if a radius below 0 was found, and set to 0.
-template <class L>
-bool checkRadius(Findings& findings, const Item& item, L& light) {
-  if constexpr (requires { light.radius; }) {
-    if (!(light.radius < 0)) return false;
-    findings.warn(item, std::string(item.key()) + " of " + std::string(L::kKeyword) +
-                            ": expected at least 0, found " + toText(light.radius) +
-                            ": the light has no size");
-    light.radius = 0;
-    return true;
-  }
+bool checkDirection(Findings& findings, const Item& call, const Light& light) {
+  const Vec3* direction = light.direction();
+  const Real l = direction ? length(*direction) : 1;
+  if (l > 0 && std::isfinite(l)) return true;
+  findings.error(call, lightWord(light) + ": expected a direction, found one of length " + toText(l));
   return false;
 }
 
-/// Between nothing and all that is ahead.
-template <class L>
-bool checkView(Findings& findings, const Item& call, const L& light) {
-  if constexpr (requires { light.fov; }) {
-    if (light.fov > 0 && light.fov < 180) return true;
-    findings.error(call, std::string(L::kKeyword) + ": expected a fov between 0 and 180 degrees, found " +
-                             toText(light.fov));
-    return false;
-  }
+/// A panel whose sides are parallel, or 0, has no area and gives no light.
+void checkArea(Findings& findings, const Item& call, const Light& light) {
+  const Vec3 *u = findValue<Vec3>(light, "u"), *v = findValue<Vec3>(light, "v");
+  if (u && v && !(length(cross(*u, *v)) > 0))
+    findings.warn(call, lightWord(light) + ": expected sides u and v that are not parallel: it is dark");
+}
+
+/// True if a radius below 0 was found, and set to 0.
+bool checkRadius(Findings& findings, const Item& item, Light& light) {
+  Real* radius = editableValue<Real>(light, "radius");
+  if (!radius || !(*radius < 0)) return false;
+  findings.warn(item, std::string(item.key()) + " of " + lightWord(light) + ": expected at least 0, found " +
+                          toText(*radius) + ": the light has no size");
+  *radius = 0;
   return true;
 }
 
+/// Between nothing and all that is ahead.
+bool checkView(Findings& findings, const Item& call, const Light& light) {
+  const Real* fov = findValue<Real>(light, "fov");
+  if (!fov || (*fov > 0 && *fov < 180)) return true;
+  findings.error(call,
+                 lightWord(light) + ": expected a fov between 0 and 180 degrees, found " + toText(*fov));
+  return false;
+}
+
 /// The up direction is undefined where it lies along the direction.
-template <class L>
-void checkUp(Findings& findings, const Item& call, const L& light, bool given) {
-  if constexpr (requires { light.up; })
-    if (given && !(length(cross(light.direction, light.up)) > 0))
-      findings.warn(call, std::string(L::kKeyword) +
-                              ": expected an up that is not along the direction: another one is chosen");
+void checkUp(Findings& findings, const Item& call, const Light& light) {
+  const Vec3 *up = findValue<Vec3>(light, "up"), *direction = light.direction();
+  if (up && direction && !(length(cross(*direction, *up)) > 0))
+    findings.warn(
+        call, lightWord(light) + ": expected an up that is not along the direction: another one is chosen");
 }
 
 /// Flaps that shut leave nothing of the light.
-template <class L>
-void checkFlaps(Findings& findings, const Item& call, const L& light) {
-  if constexpr (requires { light.xMin; }) {
-    const std::string axis = light.xMin > light.xMax   ? "x"
-                             : light.yMin > light.yMax ? "y"
-                             : light.zMin > light.zMax ? "z"
-                                                       : "";
-    if (!axis.empty())
-      findings.warn(
-          call, std::string(L::kKeyword) + ": expected " + axis + "_min below " + axis + "_max: it is dark");
-  }
+void checkFlaps(Findings& findings, const Item& call, const Light& light) {
+  const WarnLight* warn = light.as<WarnLight>();
+  if (!warn) return;
+  const std::string axis = warn->xMin > warn->xMax   ? "x"
+                           : warn->yMin > warn->yMax ? "y"
+                           : warn->zMin > warn->zMax ? "z"
+                                                     : "";
+  if (!axis.empty())
+    findings.warn(call, lightWord(light) + ": expected " + axis + "_min below " + axis + "_max: it is dark");
 }
 
-template <class L>
-void read(Findings& findings, const Item& call) {
+/// It fades as a lamp does of which the file says nothing else.
+bool fadesAsByDefault(const Light& light) {
+  const auto is = [&](std::string_view keyword, Real number) {
+    return *findValue<Real>(light, keyword) == number;
+  };
+  return is("constant_attenuation_coeff", 0) && is("linear_attenuation_coeff", 0) &&
+         is("quadratic_attenuation_coeff", 1);
+}
+
+void read(Findings& findings, const Item& call, const LightType& type) {
   const std::optional<Item> block = blockOf(findings, call);
   if (!block) return;
-  L light;
+  Light light(type);
   LightLinks links;
   StudentSpot spot;
   const std::size_t errors = findings.errors();
   std::vector<std::string_view> given, unknown;
   Real power = 0;  ///< watts; 0: not given
-  if constexpr (requires { light.color; })
-    if (findings.isOfKind()) light.color = Color(1);
-  RepeatedFields repeats(findings, L::kKeyword);
+  const bool fades = type.starts == LightOrigin::ball;
+  if (findings.isOfKind())
+    if (Color* color = editableValue<Color>(light, "color")) *color = Color(1);
+  RepeatedFields repeats(findings, type.keyword);
   for (const Item item : *block) {
-    if (!isField(findings, item, L::kKeyword)) continue;
+    if (!isField(findings, item, type.keyword)) continue;
     repeats.note(item);
-    if constexpr (std::is_same_v<L, PointLight>)
-      if (call.key() == kAreaLight &&
-          std::find(kRadius.begin(), kRadius.end(), item.key()) != kRadius.end()) {
-        rayfile::read(findings, item.key(), item.value(), light.radius);
-        checkRadius(findings, item, light);
-        continue;
-      }
-    if constexpr (std::is_same_v<L, SpotLight>)
-      if (spot.read(findings, item, light)) continue;
-    if constexpr (requires { light.quadratic; })
-      if (findings.isOfKind() && item.key() == kWatts) {
-        if (rayfile::read(findings, kWatts, item.value(), power) && !(power > 0))
-          findings.expected(item.value(), kWatts, "watts, more than 0");
-        continue;
-      }
+    if (call.key() == kAreaLight && std::find(kRadius.begin(), kRadius.end(), item.key()) != kRadius.end()) {
+      rayfile::read(findings, item.key(), item.value(), light.edit<PointLight>()->radius);
+      checkRadius(findings, item, light);
+      continue;
+    }
+    if (SpotLight* cone = light.edit<SpotLight>())
+      if (spot.read(findings, item, *cone)) continue;
+    if (fades && findings.isOfKind() && item.key() == kWatts) {
+      if (rayfile::read(findings, kWatts, item.value(), power) && !(power > 0))
+        findings.expected(item.value(), kWatts, "watts, more than 0");
+      continue;
+    }
     if (assignField(findings, links, item)) {
       if (item.key() == "lights" && links.lights.empty())
         findings.warn(item, "lights: a list without names is as none: everything is lit",
@@ -198,61 +182,61 @@ void read(Findings& findings, const Item& call) {
       continue;
     }
     if (!assignField(findings, light, item)) {
-      findings.unknownField(L::kKeyword, item, keywords<L>({"colour", "name", "lights", "excludes"}));
+      findings.unknownField(type.keyword, item, keywords(light, {"colour", "name", "lights", "excludes"}));
       unknown.push_back(item.key());
       continue;
     }
     if (!checkRadius(findings, item, light)) checkRange(findings, light, item);
-    if (canonical(item.key()) == "color") warnOfBytes(findings, L::kKeyword, item);
+    if (canonical(item.key()) == "color") warnOfBytes(findings, type.keyword, item);
     given.push_back(canonical(item.key()));
   }
   const auto isGiven = [&](std::string_view field) {
     return std::find(given.begin(), given.end(), field) != given.end();
   };
-  forEachField<L>([&](const auto& field) {
-    if (!isRequired(field.keyword, findings.isOfKind()) || isGiven(field.keyword)) return;
+  for (const LightField& field : light.fields()) {
+    if (!isRequired(field.keyword, findings.isOfKind()) || isGiven(field.keyword)) continue;
     const std::string meant = nearest(field.keyword, unknown);
-    findings.error(call, std::string(L::kKeyword) + ": expected a " + std::string(field.keyword),
+    findings.error(call, lightWord(light) + ": expected a " + std::string(field.keyword),
                    meant.empty() ? ""
                                  : "\"" + meant + "\" is not known: did you mean \"" +
                                        std::string(field.keyword) + "\"?");
-  });
+  }
   if (findings.errors() != errors || !checkDirection(findings, call, light) ||
       !checkView(findings, call, light))
     return;
   checkArea(findings, call, light);
   checkFlaps(findings, call, light);
-  checkUp(findings, call, light, isGiven("up"));
-  if constexpr (requires { light.exponent; }) light.exponent = std::max(0.0, light.exponent);
-  if constexpr (requires { light.fullAngle; }) {
+  if (isGiven("up")) checkUp(findings, call, light);
+  if (Real* exponent = editableValue<Real>(light, "exponent")) *exponent = std::max(0.0, *exponent);
+  if (SpotLight* cone = light.edit<SpotLight>()) {
     const bool fullAngle = isGiven("full_angle");
-    if (!fullAngle) spot.settle(light);
-    if (light.fullAngle > light.angle && fullAngle)
+    if (!fullAngle) spot.settle(*cone);
+    if (cone->fullAngle > cone->angle && fullAngle)
       findings.warn(call, "spot_light: expected a full_angle of at most the angle, found " +
-                              toText(light.fullAngle) + " and " + toText(light.angle));
+                              toText(cone->fullAngle) + " and " + toText(cone->angle));
   }
-  if constexpr (requires { light.quadratic; }) {
-    const bool fades = light.constant == 0 && light.linear == 0 && light.quadratic == 1;
-    if (power > 0)
-      light.color = light.color * (power / kPowerOfOne);
-    else if (fades)
-      findings.given().fading.push_back(findings.scene().lights.size());
+  if (fades && power > 0) {
+    Color& color = *editableValue<Color>(light, "color");
+    color = color * (power / kPowerOfOne);
+  } else if (fades && fadesAsByDefault(light)) {
+    findings.given().fading.push_back(findings.scene().lights.size());
   }
-  findings.scene().lights.push_back({light, findings.syntax().shortPlace(call.offset()), std::move(links)});
+  findings.scene().lights.push_back(
+      {std::move(light), findings.syntax().shortPlace(call.offset()), std::move(links)});
 }
 
 }  // namespace
 
-bool isLight(std::string_view keyword) {
-  return withLight(keyword, [](auto*) {});
-}
+bool isLight(std::string_view keyword) { return typeCalled(keyword) != nullptr; }
 
 void addLightWords(std::vector<std::string_view>& words) {
-  forEachType<Light>([&]<class L>(L*) { words.push_back(L::kKeyword); });
+  for (const LightType& type : lightTypes()) words.push_back(type.keyword);
 }
 
 bool readLight(Findings& findings, const Item& call) {
-  return withLight(call.key(), [&]<class L>(L*) { read<L>(findings, call); });
+  const LightType* type = typeCalled(call.key());
+  if (type) read(findings, call, *type);
+  return type != nullptr;
 }
 
 }  // namespace trace::rayfile

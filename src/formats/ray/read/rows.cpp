@@ -6,38 +6,34 @@
 #include <utility>
 
 #include "base/budget.h"
-#include "base/match.h"
 #include "base/text.h"
 #include "formats/ray/read/fields.h"
 #include "formats/ray/read/light.h"
 #include "formats/ray/read/objects.h"
+#include "shading/lights/warn_light.h"
 
 namespace trace::rayfile {
 namespace {
 
 /// A copy of a light, which has a place: its flaps go along, and what it lights from grows with its size.
 LightSource movedLight(LightSource source, const Rows::Copy& copy) {
-  match(source.light, [&](auto& light) {
-    if constexpr (requires { light.position; }) light.position = copy.place + copy.size * light.position;
-    if constexpr (requires { light.radius; }) light.radius *= copy.size;
-    if constexpr (requires { light.u; }) light.u = light.u * copy.size, light.v = light.v * copy.size;
-    if constexpr (requires { light.xMin; }) {
-      const auto shift = [&](Real& low, Real& high, Real by) {
-        low = low * copy.size + by, high = high * copy.size + by;
-      };
-      shift(light.xMin, light.xMax, copy.place.x);
-      shift(light.yMin, light.yMax, copy.place.y);
-      shift(light.zMin, light.zMax, copy.place.z);
-    }
-  });
+  Light& light = source.light;
+  if (Vec3* position = editableValue<Vec3>(light, "position")) *position = copy.place + copy.size * *position;
+  if (Real* radius = editableValue<Real>(light, "radius")) *radius *= copy.size;
+  for (const std::string_view edge : {"u", "v"})
+    if (Vec3* vector = editableValue<Vec3>(light, edge)) *vector = *vector * copy.size;
+  if (WarnLight* warn = light.edit<WarnLight>()) {
+    const auto shift = [&](Real& low, Real& high, Real by) {
+      low = low * copy.size + by, high = high * copy.size + by;
+    };
+    shift(warn->xMin, warn->xMax, copy.place.x);
+    shift(warn->yMin, warn->yMax, copy.place.y);
+    shift(warn->zMin, warn->zMax, copy.place.z);
+  }
   return source;
 }
 
-bool hasPlace(const LightSource& source) {
-  return match(source.light, [](const auto& light) {
-    return requires { light.position; };
-  });
-}
+bool hasPlace(const LightSource& source) { return source.light.position() != nullptr; }
 
 }  // namespace
 

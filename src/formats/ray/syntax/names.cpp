@@ -45,9 +45,9 @@ void lookForFiles(Search& search, const Scene& scene) {
   for (Material material : scene.materials)
     if (!material.textures.empty()) changePixels(material, look);
   for (const LightSource& source : scene.lights)
-    match(source.light, [&](auto light) {
-      if constexpr (requires { changePixels(light, look); }) changePixels(light, look);
-      if constexpr (requires { light.file.data; }) search.look(light.file.file);
+    forEachField(source.light, [&]<class Value>(const LightField&, const Value& value) {
+      if constexpr (std::is_same_v<Value, Pixels> || std::is_same_v<Value, PhotometryFile>)
+        search.look(value.file);
     });
   Background background = scene.background;
   changePixels(background, look);

@@ -42,6 +42,20 @@ std::optional<double> onlyNumber(const Item& tuple) {
   return only;
 }
 
+template <class AnyField>
+void changeListed(TextEdits& edits, const Item& block, const std::vector<AnyField>& was,
+                  const std::vector<AnyField>& is) {
+  for (std::size_t i = 0; i < is.size(); ++i)
+    match(is[i].value, [&]<class Value>(const Value& value) {
+      const Value& before = *std::get_if<Value>(&was[i].value);
+      if constexpr (std::is_same_v<Value, EnumValue>) {
+        if (before.index() != value.index()) changeField(edits, block, is[i].keyword, value);
+      } else if constexpr (!std::is_same_v<Value, Operands*> && !std::is_same_v<Value, MaterialList*>) {
+        if (*before != *value) changeField(edits, block, is[i].keyword, *value);
+      }
+    });
+}
+
 }  // namespace
 
 std::optional<Item> fieldOf(const Item& block, std::string_view keyword) {
@@ -259,16 +273,10 @@ void sayField(TextEdits& edits, const Item& block, std::string_view keyword, con
 }
 
 void changeFields(TextEdits& edits, const Item& block, const Shape& from, const Shape& to) {
-  const std::vector<AnyField> was = from.fields(), is = to.fields();
-  for (std::size_t i = 0; i < is.size(); ++i)
-    match(is[i].value, [&]<class Value>(const Value& value) {
-      const Value& before = *std::get_if<Value>(&was[i].value);
-      if constexpr (std::is_same_v<Value, EnumValue>) {
-        if (before.index() != value.index()) changeField(edits, block, is[i].keyword, value);
-      } else if constexpr (!std::is_same_v<Value, Operands*> && !std::is_same_v<Value, MaterialList*>) {
-        if (*before != *value) changeField(edits, block, is[i].keyword, *value);
-      }
-    });
+  changeListed(edits, block, from.fields(), to.fields());
+}
+void changeFields(TextEdits& edits, const Item& block, const Light& from, const Light& to) {
+  changeListed(edits, block, from.fields(), to.fields());
 }
 
 }  // namespace trace::rayfile

@@ -97,7 +97,8 @@ void changeFields(TextEdits& edits, const Item& block, const Struct& from, const
     if (from.*f.member != value) changeField(edits, block, f.keyword, value);
   });
 }
-/// Edits of shapes of one type.
+/// Edits of shapes or lights of one type.
 void changeFields(TextEdits& edits, const Item& block, const Shape& from, const Shape& to);
+void changeFields(TextEdits& edits, const Item& block, const Light& from, const Light& to);
 
 }  // namespace trace::rayfile

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/match.h"
 #include "base/text.h"
 #include "formats/ray/write/edits.h"
 #include "formats/ray/write/outline.h"
@@ -85,12 +84,10 @@ class Round {
     const Light &was = from_.lights[index].light, &is = now.light;
     changeFields(edits_, call->value(), from_.lights[index].links, now.links);
     if (was == is) return;
-    match(was, [&]<class L>(const L& light) {
-      if (const L* other = std::get_if<L>(&is))
-        changeFields(edits_, call->value(), light, *other);
-      else
-        edits_.replace(*call, writtenLight(is));
-    });
+    if (&was.type() == &is.type())
+      changeFields(edits_, call->value(), was, is);
+    else
+      edits_.replace(*call, writtenLight(is));
   }
 
   // --- objects ---

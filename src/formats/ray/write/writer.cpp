@@ -15,7 +15,6 @@
 #include <utility>
 
 #include "base/file.h"
-#include "base/match.h"
 #include "base/text.h"
 #include "formats/picture_files.h"
 #include "formats/ray/read/fields.h"
@@ -151,10 +150,8 @@ class Writer {
   }
 
   void writeLight(const Light& light, const LightLinks& links) {
-    match(light, [&](const auto& from) {
-      out_ += std::string(from.kKeyword) + " {\n";
-      fields(from);
-    });
+    out_ += std::string(light.keyword()) + " {\n";
+    forEachField(light, [&](const LightField& f, const auto& value) { field(f.keyword, value); });
     writeLinks(links);
     out_ += "}\n\n";
   }
