@@ -220,7 +220,7 @@ bool shines(const Scene& scene) {
 
 Box3 boundsOfInterest(const Scene& scene) {
   constexpr Real kFlat = 0.02, kMuchLarger = 4;
-  constexpr std::size_t kMostFramed = 4000;  // of the objects of groups
+  constexpr std::size_t kMostFramed = 4000;  // copies of objects in groups
   std::vector<Box3> boxes;
   const Scene shown = scene.uses.empty() ? Scene() : firstCopies(scene, kMostFramed);
   for (const Object& object : scene.uses.empty() ? scene.objects : shown.objects) {

@@ -57,7 +57,7 @@ struct Group {
   std::string name;  ///< as in the file; may be empty
   Place place{};
   std::vector<Object> objects{};  ///< in the space of the group
-  std::vector<GroupUses> uses{};  ///< of groups before this one
+  std::vector<GroupUses> uses{};  ///< placements of groups before this one
   bool operator==(const Group&) const = default;
 };
 

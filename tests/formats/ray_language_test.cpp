@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "formats/ray/file/format.h"
 #include "formats/ray/language/language.h"
+#include "geometry/shapes/csg_tree.h"
 #include "ray_helpers.h"
 #include "scene/groups.h"
 #include "support/paths.h"

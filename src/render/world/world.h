@@ -154,7 +154,7 @@ class World {
     const Color filter = whitted(*bsdfAt(ray, found)).transmissive;
     return hasHoles_ ? lerp(opacityAt(ray, found), Color(1), filter) : filter;
   }
-  /// Of the object or of the placement with that number.
+  /// The transform of the object or of the placement with that number.
   Affine worldFromObject(std::uint32_t object) const {
     return object < plain_ ? objects_[object].placement.outFromIn() : placedTransform(object);
   }
@@ -250,7 +250,7 @@ class World {
   /// The environment that rays see when they hit nothing.
   const Outside& outside() const { return outside_; }
   const Box3& bounds() const { return bounds_; }  ///< bounds of the finite objects
-  /// Of objects that are no part of a group.
+  /// The number of objects that are no part of a group.
   std::size_t objectCount() const { return plain_; }
   /// Their numbers, and those of the objects of each group where it is placed first.
   std::vector<std::uint32_t> kindsOfObjects() const;
@@ -306,7 +306,7 @@ class World {
     Box3 box{};
     bool holds = false;  ///< something of it does
   };
-  /// What stands where: a number, resolved.
+  /// A number, resolved.
   struct Located {
     std::uint32_t object;  ///< index into objects_; Bvh::kNoItem for the number of a placement
     int levels = 0;

@@ -266,7 +266,7 @@ class Expander : Evaluator {
       default: fail(index, "expected a value, found " + describe(at(index)));
     }
   }
-  /// What is not an item of a list or group.
+  /// A value that is no item of a list or group.
   void value(std::uint32_t index, const Scoped& scope) {
     if (kind(index) == Kind::block)
       inBrackets(index, scope);

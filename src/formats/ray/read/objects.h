@@ -63,7 +63,7 @@ class ObjectReader {
 
   /// Placements of groups in the scene or in the group that is being read, by group.
   using Uses = std::map<std::uint32_t, GroupUses::List>;
-  /// What a name of objects became under one material.
+  /// The result of a name of objects under one material.
   struct Prototype {
     bool isCopied = false;                 ///< it cannot be placed
     std::optional<std::uint32_t> group{};  ///< nothing where all objects stand alone

@@ -40,7 +40,7 @@ enum class Kind : std::uint8_t {
   loop,        ///< name, what it runs through, block
   branch,      ///< condition, block, and for `else` a block or branch
   include,     ///< the name of a file
-  // What expand() makes of a name of objects that is used again:
+  // expand() makes these of a name of objects that is used often:
   again,  ///< objects that are a node of the tree already: `number` is an index into Syntax::uses()
 };
 
@@ -145,7 +145,7 @@ class Syntax {
   void setFrames(std::vector<Frame> frames) { frames_ = std::move(frames); }
   /// Objects that are placed once more.
   struct Use {
-    Affine transform{};      ///< of the objects there
+    Affine transform{};      ///< transform of the objects
     std::uint32_t root = 0;  ///< the node that has them
   };
   /// A node that stands in the tree and is placed more often: the first one, or a copy of it.
