@@ -36,6 +36,8 @@ struct NodeWatch {
   void (*note)(void* context, const BvhNode& node, std::uint32_t owner) = nullptr;
   void* context = nullptr;
   std::uint32_t owner = kTop;  ///< whose hierarchy is queried, as the caller numbers them
+  /// Within a placement of a group: its number, and what is added to those of its objects.
+  std::uint32_t placement = kTop, shift = 0;
 };
 
 /// The whole of a hierarchy.

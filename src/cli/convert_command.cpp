@@ -25,6 +25,7 @@
 #include "formats/ray/file/format.h"
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
+#include "scene/groups.h"
 
 namespace trace::cli {
 namespace {
@@ -93,14 +94,17 @@ Scene readWords(const std::string& flag, const std::string& text, const Console&
 /// Every object, and every point of a mesh, of this material.
 void setMaterial(Scene& scene, const Material& material) {
   scene.materials = {material};
-  for (Object& object : scene.objects) {
+  const auto set = [](Object& object) {
     object.material = 0;
     const auto* mesh = object.shape.as<Mesh>();
-    if (!mesh || mesh->data->materials.empty()) continue;
+    if (!mesh || mesh->data->materials.empty()) return;
     MeshData plain = *mesh->data;
     plain.materials.clear();
     object.shape = Mesh{std::make_shared<const MeshData>(std::move(plain))};
-  }
+  };
+  for (Object& object : scene.objects) set(object);
+  for (Group& group : scene.groups)
+    for (Object& object : group.objects) set(object);
 }
 
 void change(Scene& scene, const Conversion& conversion, const Console& console) {
@@ -155,6 +159,7 @@ std::string convert(const std::string& in, const std::string& out, const Argumen
   {
     const Work work("converting the scene");
     change(scene, conversion, console);
+    if (!format.keepsGroups) scene = copied(scene, "a file of the format " + std::string(format.name));
     files = format.write(scene, out,
                          {.digits = conversion.digits, .ascii = conversion.ascii, .steps = conversion.steps},
                          messages);

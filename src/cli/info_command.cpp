@@ -1,8 +1,8 @@
 // ray info SCENE: what is in the scene and what a render would make of it, for people or as JSON.
 //
-// Keys of the JSON object: file, format, objects.NAME, triangles, lights.NAME, materials, bounds.{low, high}
-// (null when empty), camera.{position, viewdir, updir, fov, aspectratio}, picture.{width, height},
-// conventions[] and changed[] of {name, value, from}, unrendered[] of {kind, place}, warnings[].
+// Keys of the JSON object: file, format, objects.NAME, triangles, instances.NAME, lights.NAME, materials,
+// bounds.{low, high} (null when empty), camera.{position, viewdir, updir, fov, aspectratio}, picture.{width,
+// height}, conventions[] and changed[] of {name, value, from}, unrendered[] of {kind, place}, warnings[].
 #include <array>
 #include <cstdio>
 
@@ -13,6 +13,7 @@
 #include "cli/commands.h"
 #include "cli/scene_facts.h"
 #include "scene/conventions.h"
+#include "scene/groups.h"
 
 namespace trace::cli {
 namespace {
@@ -61,6 +62,11 @@ std::string infoText(const Facts& facts) {
   std::string text = printable(scene.file) + " (" + scene.format + ")\n";
   text += countsText(countShapes(scene), "objects", scene.objects.size());
   if (const std::size_t n = countTriangles(scene); n > 0) text += line("triangles", std::to_string(n));
+  if (!scene.uses.empty()) {
+    text += "instances (" + std::to_string(countUses(scene.uses)) + ")\n";
+    for (const auto& [name, n] : countInstances(scene)) text += line(name, std::to_string(n));
+    text += line("objects in them", std::to_string(countPlacedObjects(scene)));
+  }
   text += countsText(countLights(scene), "lights", scene.lights.size());
   text += "materials (" + std::to_string(scene.materials.size()) + ")\n";
   text += "bounds\n";
@@ -111,6 +117,7 @@ std::string infoJson(const Facts& facts) {
   json["format"] = scene.format;
   json["objects"] = counts(countShapes(scene));
   json["triangles"] = countTriangles(scene);
+  json["instances"] = counts(countInstances(scene));
   json["lights"] = counts(countLights(scene));
   json["materials"] = scene.materials.size();
   json["bounds"] = nullptr;

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "geometry/mesh/mesh.h"
+#include "scene/groups.h"
 #include "scene/quality.h"
 
 namespace trace::cli {
@@ -44,10 +45,25 @@ Counts countLights(const Scene& scene) {
   return counts;
 }
 
+Counts countInstances(const Scene& scene) {
+  Counts counts;
+  for (const GroupUses& uses : scene.uses) {
+    const std::string& name = scene.groups[uses.group].name;
+    const std::string_view shown = name.empty() ? std::string_view("group") : std::string_view(name);
+    const auto same =
+        std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == shown; });
+    if (same == counts.end())
+      counts.emplace_back(shown, uses.list->size());
+    else
+      same->second += uses.list->size();
+  }
+  return counts;
+}
+
 std::size_t countTriangles(const Scene& scene) {
   std::size_t n = 0;
-  for (const Object& object : scene.objects)
-    if (const auto* mesh = object.shape.as<Mesh>()) n += mesh->data->triangles.size();
+  for (const Object* object : allObjects(scene))
+    if (const auto* mesh = object->shape.as<Mesh>()) n += mesh->data->triangles.size();
   return n;
 }
 

@@ -16,7 +16,9 @@ namespace trace::cli {
 using Counts = std::vector<std::pair<std::string_view, std::size_t>>;
 Counts countShapes(const Scene& scene);
 Counts countLights(const Scene& scene);
-/// Triangles of all meshes; a mesh used by several objects counts each time.
+/// (name of a group, how often it is placed in the scene).
+Counts countInstances(const Scene& scene);
+/// Triangles of all meshes; a mesh used by several objects counts each time, one in a group once.
 std::size_t countTriangles(const Scene& scene);
 
 struct OptionFact {

@@ -26,6 +26,7 @@
 #include "formats/text_front.h"
 #include "formats/textures.h"
 #include "formats/ubc/ubc_format.h"
+#include "scene/groups.h"
 
 namespace trace {
 namespace {
@@ -42,6 +43,7 @@ constexpr std::array kFormats{
                 .recognises = recognisesRay,
                 .readAt = readRay,
                 .write = writeRay,
+                .keepsGroups = true,
                 .rewrite = rewriteRay},
     SceneFormat{.name = "composer",
                 .suffixes = kOut,
@@ -337,7 +339,9 @@ Rewritten writeEdited(const SceneText& read, const Scene& edited, const std::str
     plain.bytes = std::make_shared<const std::string>(front.text());
     return format.rewrite(plain, edited, file, messages);
   }
-  return {format.write(edited, file, {}, messages)};
+  return {format.write(
+      format.keepsGroups ? edited : copied(edited, "a file of the format " + std::string(format.name)), file,
+      {}, messages)};
 }
 
 }  // namespace trace

@@ -70,6 +70,7 @@ struct SceneFormat {
   /// throws Error(Fault::scene) if nothing is left.
   std::vector<NamedBytes> (*write)(const Scene& scene, const std::string& file, const WriteOptions& options,
                                    Messages& messages) = nullptr;
+  bool keepsGroups = false;  ///< `write` takes groups and their placements; else they have to be copied()
   /// The scene, which was read as `read` of this format and edited, with as little of the text changed as
   /// possible.
   Rewritten (*rewrite)(const SceneText& read, const Scene& edited, const std::string& file,

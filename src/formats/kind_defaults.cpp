@@ -12,6 +12,7 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_smooth.h"
 #include "geometry/traced.h"
+#include "scene/groups.h"
 #include "scene/picture_size.h"
 #include "scene/quality.h"
 #include "shading/lights/directional_light.h"
@@ -119,19 +120,22 @@ void fitCamera(Scene& scene) {
 constexpr Real kCrease = 40 * kPi / 180;
 
 void smoothMeshes(Scene& scene) {
-  std::vector<std::pair<const MeshData*, Mesh>> smooth;  // instances share them
-  for (Object& object : scene.objects) {
+  std::vector<std::pair<const MeshData*, Mesh>> smooth;  // several objects share them
+  const auto smoothen = [&](Object& object) {
     const auto* mesh = object.shape.as<Mesh>();
-    if (!mesh) continue;
+    if (!mesh) return;
     const MeshData& data = *mesh->data;
-    if (!data.normals.empty() || data.generateNormals || data.triangles.empty()) continue;
+    if (!data.normals.empty() || data.generateNormals || data.triangles.empty()) return;
     auto found = std::find_if(smooth.begin(), smooth.end(), [&](const auto& s) { return s.first == &data; });
     if (found == smooth.end()) {
       smooth.emplace_back(&data, Mesh{std::make_shared<const MeshData>(withCreaseNormals(data, kCrease))});
       found = std::prev(smooth.end());
     }
     object.shape = found->second;
-  }
+  };
+  for (Object& object : scene.objects) smoothen(object);
+  for (Group& group : scene.groups)
+    for (Object& object : group.objects) smoothen(object);
 }
 
 /// A light that fades: its colour is what falls on a white surface at the distance of what is looked at.
@@ -216,8 +220,10 @@ bool shines(const Scene& scene) {
 
 Box3 boundsOfInterest(const Scene& scene) {
   constexpr Real kFlat = 0.02, kMuchLarger = 4;
+  constexpr std::size_t kMostFramed = 4000;  // copies of objects in groups
   std::vector<Box3> boxes;
-  for (const Object& object : scene.objects) {
+  const Scene shown = scene.uses.empty() ? Scene() : firstCopies(scene, kMostFramed);
+  for (const Object& object : scene.uses.empty() ? scene.objects : shown.objects) {
     const Box3 box = object.worldFromObject * prepare(object.shape).bounds();
     if (!box.empty() && isFinite(box.size())) boxes.push_back(box);
   }

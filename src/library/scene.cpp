@@ -10,6 +10,7 @@
 #include "library/guard.h"
 #include "library/part_state.h"
 #include "library/scene_state.h"
+#include "scene/groups.h"
 
 namespace traceray {
 namespace {
@@ -160,7 +161,11 @@ std::vector<Problem> Scene::save(const std::string& file) const {
     if (state.text && format.rewrite && format.name == state.text->scene->format)
       written = writeEdited(*state.text, scene, file, messages);
     else
-      written = {format.write(scene, file, {}, messages), false};
+      written = {format.write(format.keepsGroups
+                                  ? scene
+                                  : trace::copied(scene, "a file of the format " + std::string(format.name)),
+                              file, {}, messages),
+                 false};
     if (!isOwn) trace::checkIsNoInput(file, scene.inputs);
     if (isOwn && !written.keepsAll)
       throw Error(Error::Kind::usage,

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "geometry/shapes/csg_tree.h"
+#include "scene/groups.h"
 #include "scene/integrators.h"
 #include "scene/picture_size.h"
 
@@ -97,8 +98,9 @@ IntegratorKind integratorFor(const Scene& scene, const Settings& settings) {
   if (settings.quality != Quality::final) return IntegratorKind::path;
   const bool lamps = std::any_of(scene.lights.begin(), scene.lights.end(),
                                  [](const LightSource& source) { return isMissedByPaths(source.light); });
-  const bool glass = std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-    return isBent(scene, object.shape, object.material);
+  const std::vector<const Object*> objects = allObjects(scene);
+  const bool glass = std::any_of(objects.begin(), objects.end(), [&](const Object* object) {
+    return isBent(scene, object->shape, object->material);
   });
   return lamps && glass ? IntegratorKind::bdpt : IntegratorKind::path;
 }

@@ -1,9 +1,11 @@
 // A scene: what a file said and what a person edits. Plain values, copied, compared, saved.
 //
-// It is flat: nested transforms are multiplied out, groups are names. compile() (render/world/world.h) makes
-// from it the World that rays hit, out of the same shape, material and light structs.
+// Nested transforms are multiplied out. A group that is used many times is kept once, with its placements
+// (scene/groups.h). compile() (render/world/world.h) makes from it the World that rays hit, out of the same
+// shape, material and light structs.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,33 @@ struct Object {
   Place place;                 ///< where the file defines it
   ObjectLinks links{};
   bool operator==(const Object&) const = default;
+};
+
+/// One placement of a group: an instance.
+struct GroupUse {
+  Affine outFromGroup;
+  std::uint32_t place = 0;  ///< index into Scene::usePlaces
+  bool operator==(const GroupUse&) const = default;
+};
+
+/// All placements of one group in the scene, or in another group. Copies of a scene share them.
+struct GroupUses {
+  using List = std::vector<GroupUse>;
+
+  std::uint32_t group = 0;  ///< index into Scene::groups
+  std::shared_ptr<const List> list = std::make_shared<const List>();
+  bool operator==(const GroupUses& other) const {
+    return group == other.group && (list == other.list || *list == *other.list);
+  }
+};
+
+/// Objects that are placed together, many times.
+struct Group {
+  std::string name;  ///< as in the file; may be empty
+  Place place{};
+  std::vector<Object> objects{};  ///< in the space of the group
+  std::vector<GroupUses> uses{};  ///< placements of groups before this one
+  bool operator==(const Group&) const = default;
 };
 
 struct LightSource {
@@ -81,8 +110,11 @@ struct Scene {
   Background background;
   std::vector<LightSource> lights;
   std::vector<Material> materials;
-  std::vector<Object> objects;
-  std::vector<Choice> choices;  ///< options that the file sets, or that follow from its dialect
+  std::vector<Object> objects;  ///< those that are no part of a group
+  std::vector<Group> groups;
+  std::vector<GroupUses> uses;   ///< placements of groups
+  std::vector<Place> usePlaces;  ///< where the file places them
+  std::vector<Choice> choices;   ///< options that the file sets, or that follow from its dialect
   std::vector<Unrendered> unrendered;
   std::vector<UnusedMaterial> unusedMaterials;
   /// The choices that the file left to Trace, in words: "a camera that shows all objects"

@@ -11,7 +11,9 @@
 #include "base/file.h"
 #include "formats/ray/file/format.h"
 #include "formats/ray/language/language.h"
+#include "geometry/shapes/csg_tree.h"
 #include "ray_helpers.h"
+#include "scene/groups.h"
 #include "support/paths.h"
 
 namespace trace::ray_language_test {
@@ -321,6 +323,96 @@ TEST(RayLanguage, ALoopWithoutTurnsIsReported) {
   EXPECT_EQ(warningsOf("sphere { }\nfor i in 0..2 { for j in 1..i { box { } } }"), "") << "it does in some";
   EXPECT_EQ(warningsOf("sphere { }\nif (1 > 2) { for i in 5..1 { box { } } }"), "") << "never reached";
   EXPECT_EQ(warningsOf("sphere { }\nfor i in 1..time { box { } }"), "") << "it may at another time";
+}
+
+// --- instances ---
+
+const std::string kTree =
+    "let tree = group { for i in 0..9 { translate(0, i, 0) { sphere { } } } translate(1, 0, 0) { box { } } "
+    "}\n";
+const std::string kForest =
+    "for i in 0..599 { translate(i, random(), 0) { rotate y 0.1 { scale(2) { tree } } } }\n";
+
+TEST(Instances, ANameOfObjectsThatIsUsedOftenIsOneGroup) {
+  const Scene scene = load(kTree + "box { }\n" + kForest).scene;
+  EXPECT_EQ(scene.objects.size(), 1u);
+  ASSERT_EQ(scene.groups.size(), 1u);
+  EXPECT_EQ(scene.groups[0].objects.size(), 11u);
+  EXPECT_EQ(scene.groups[0].name, "tree");
+  ASSERT_EQ(countUses(scene.uses), 600u);
+  EXPECT_EQ(placementName(scene, objectOf(scene, 1 + 600 + 11 * 9)), "tree #10 (test.ray:4)");
+  EXPECT_EQ(countPlacedObjects(scene), 6600u);
+}
+
+TEST(Instances, FewUsesAreCopies) {
+  const Scene scene = load(kTree + "for i in 0..2 { translate(i, 0, 0) { tree } }").scene;
+  EXPECT_EQ(scene.objects.size(), 33u);
+  EXPECT_TRUE(scene.groups.empty());
+}
+
+TEST(Instances, TheyStandWhereCopiesWould) {
+  const std::string transforms =
+      "for i in 0..599 { rotate(1, 2, 3, i) { translate((i, 2, 1)) { transform((1, 0, 0.5, 1), (0, 1, 0, 2), "
+      "(0, 0, -1, 3), (0, 0, 0, 1), tree) } } }";
+  const Scene scene = copied(load(kTree + transforms).scene, "test");
+  const Scene plain = load(
+                          "define tree() { for i in 0..9 { translate(0, i, 0) { sphere { } } } translate(1, "
+                          "0, 0) { box { } } }\n" +
+                          transforms)
+                          .scene;
+  ASSERT_EQ(scene.objects.size(), plain.objects.size());
+  for (std::size_t i = 0; i < plain.objects.size(); ++i)
+    for (const Vec3& p : {Vec3{}, Vec3{1, 2, 3}})
+      for (int k = 0; k < 3; ++k)
+        EXPECT_NEAR((scene.objects[i].worldFromObject * p)[k], (plain.objects[i].worldFromObject * p)[k],
+                    1e-9);
+}
+
+TEST(Instances, AMaterialAtTheUseMakesAGroupOfItsOwn) {
+  const Scene scene = load("let red = { diffuse = (1, 0, 0); }\n" + kTree + kForest +
+                           "for i in 0..99 { translate(0, 0, i) { tree { material = red } } }")
+                          .scene;
+  ASSERT_EQ(scene.groups.size(), 2u);
+  EXPECT_EQ(countUses(scene.uses), 700u);
+  EXPECT_NE(scene.groups[0].objects[0].material, scene.groups[1].objects[0].material);
+}
+
+TEST(Instances, GroupsOfGroupsAreKept) {
+  const Scene scene = load(kTree + "let grove = group { " + kForest + "}\n" +
+                           "for i in 0..99 { translate(0, 0, i) { grove } }")
+                          .scene;
+  EXPECT_EQ(scene.objects.size(), 0u);
+  EXPECT_EQ(countPlacedObjects(scene), 660'000u);
+}
+
+TEST(Instances, LightsAndMediaAndPlanesAreCopied) {
+  const Scene scene =
+      load(
+          "let lamp = group { for i in 0..9 { box { } } sphere { material = { emissive = (1, 1, 1); } } "
+          "plane { } }\nfor i in 0..999 { translate(i, 0, 0) { lamp } }")
+          .scene;
+  EXPECT_EQ(scene.objects.size(), 2000u);
+  ASSERT_EQ(scene.groups.size(), 1u);
+  EXPECT_EQ(scene.groups[0].objects.size(), 10u);
+}
+
+TEST(Instances, PartsOfSolidsAreCopied) {
+  const Scene scene = load(kTree + "union { " + kForest + "}").scene;
+  ASSERT_EQ(scene.objects.size(), 1u);
+  EXPECT_EQ(scene.objects[0].shape.operands().list().size(), 600u);
+  EXPECT_TRUE(scene.groups.empty());
+}
+
+TEST(Instances, TheWriterKeepsThem) {
+  const Scene scene = load(kTree + "sphere { }\n" + kForest).scene;
+  Messages messages;
+  const std::string text = writableFormatFor("out.ray").write(scene, "out.ray", {}, messages).at(0).bytes;
+  Messages again;
+  const Scene back = readScene("out.ray", text, again);
+  ASSERT_EQ(back.groups.size(), 1u);
+  EXPECT_EQ(countUses(back.uses), 600u);
+  const Scene a = copied(scene, "test"), b = copied(back, "test");
+  ASSERT_EQ(a.objects.size(), b.objects.size());
 }
 
 TEST(RayLanguage, BombsEnd) {

@@ -6,6 +6,7 @@
 #include "base/match.h"
 #include "base/text.h"
 #include "geometry/mesh/mesh.h"
+#include "scene/groups.h"
 
 namespace trace {
 namespace {
@@ -15,7 +16,9 @@ NamedBody namedBody(std::uint32_t index, std::vector<MaterialShare> shares, cons
   NamedBody body;
   body.name = fillingName(scene, index);
   if (index == Filling::kAir) return body;
-  const Object& object = scene.objects[index];
+  const NumberedObject found = objectOf(scene, index);
+  if (!found.object) return body;
+  const Object& object = *found.object;
   body.object = index;
   body.ownName = object.name;
   body.shape = object.shape.keyword();

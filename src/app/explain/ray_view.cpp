@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/text.h"
+#include "scene/groups.h"
 
 namespace trace {
 namespace {
@@ -127,9 +128,11 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
 
   if (node.hit) {
     const Hit& hit = *node.hit;
-    const Object& object = scene.objects[hit.object];
+    const NumberedObject found = objectOf(scene, hit.object);
+    const Object& object = *found.object;
     row("Hit", "");
     row("object", objectName(scene, hit.object));
+    if (!found.steps.empty()) row("placed as", placementName(scene, found));
     if (object.place.line > 0) row("defined at", shortPlace(object.place));
     row("shape, part", std::string(object.shape.keyword()) + ", " + std::to_string(hit.part));
     row("material", materialNames(scene, node.materials));

@@ -12,6 +12,7 @@
 #include "formats/ray/read/material.h"
 #include "geometry/mesh/mesh_repair.h"
 #include "geometry/traced.h"
+#include "scene/groups.h"
 
 namespace trace {
 namespace lint_checks {
@@ -127,6 +128,12 @@ std::span<const LintCheck> lintChecks() {
 
 std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, const World& world,
                               const std::vector<Message>& warnings) {
+  if (!scene.uses.empty()) {  // some of the placed objects stand for all
+    constexpr std::size_t kMostChecked = 1000;
+    const Scene some = firstCopies(scene, kMostChecked);
+    Messages known;
+    return lint(some, settings, compile(some, settings, known), warnings);
+  }
   LintScene s{scene, settings, world, warnings, survey(scene, settings, world)};
   s.aroundCamera = objectsAround(world, world.camera().eye);
   s.remarks = remarksOn(scene);

@@ -97,7 +97,7 @@ bool shinesOnSomething(const World& world, const SpotLight& light) {
 double shareInsideOut(const World& world, std::uint32_t object, const MeshData& mesh) {
   constexpr std::size_t kMost = 200;
   const std::size_t count = mesh.triangles.size(), step = std::max<std::size_t>(1, count / kMost);
-  const Affine& toWorld = world.worldFromObject(object);
+  const Affine toWorld = world.worldFromObject(object);
   const Real far = 4 * length(world.bounds().size());
   int asked = 0, inside = 0;
   for (std::size_t i = 0; i < count; i += step) {

@@ -16,6 +16,7 @@
 #include "render/picture/passes.h"
 #include "render/picture/render.h"
 #include "render/samples/integrator.h"
+#include "scene/groups.h"
 #include "scene/integrators.h"
 #include "scene/options.h"
 #include "shading/lights/point_light.h"
@@ -235,8 +236,9 @@ bool seesObjects(const World& world) {
 }
 
 std::string whereToLook(const Scene& scene) {
+  constexpr std::size_t kMostLookedAt = 2000;
   Box3 all;
-  for (const Object& object : scene.objects) {
+  for (const Object& object : firstCopies(scene, kMostLookedAt).objects) {
     const Box3 box = object.worldFromObject * prepare(object.shape).bounds();
     if (!box.empty() && !box.unbounded()) all.extend(box);
   }
@@ -281,9 +283,9 @@ Picture tracedCells(const World& world, const Settings& settings) {
 std::optional<Message> darkness(const Scene& scene, const Settings& settings, const World& world,
                                 const Picture& cells) {
   const Development development = developmentOf(settings);
-  if (!settings.region.whole() || settings.tone == Tone::stretch || scene.objects.empty() ||
-      hasTrait(settings, Trait::showsData) || settings.unweighted || settings.lightVertices >= 0 ||
-      settings.cameraVertices >= 0)
+  if (!settings.region.whole() || settings.tone == Tone::stretch ||
+      (scene.objects.empty() && scene.uses.empty()) || hasTrait(settings, Trait::showsData) ||
+      settings.unweighted || settings.lightVertices >= 0 || settings.cameraVertices >= 0)
     return {};
   std::vector<char> dark;
   double level = 0;

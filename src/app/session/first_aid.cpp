@@ -69,7 +69,8 @@ std::optional<Message> firstAid(const Scene& scene, const Settings& settings, co
   if (auto dark = darkness(scene, settings, world, cells)) return dark;
   const bool isPart = !settings.region.whole() || settings.unweighted || settings.lightVertices >= 0 ||
                       settings.cameraVertices >= 0;
-  if (isPart || scene.objects.empty() || hasTrait(settings, Trait::showsData)) return {};
+  if (isPart || (scene.objects.empty() && scene.uses.empty()) || hasTrait(settings, Trait::showsData))
+    return {};
   try {
     if (auto white = clipped(scene, settings, cells)) return white;
     return ofOneColor(scene, settings, world, cells);

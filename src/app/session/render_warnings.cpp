@@ -14,6 +14,7 @@
 #include "math/warp.h"
 #include "render/lights/lamps.h"
 #include "render/picture/render.h"
+#include "scene/groups.h"
 #include "scene/integrators.h"
 #include "scene/options.h"
 
@@ -22,7 +23,7 @@ namespace {
 
 template <class Is>
 bool anyObject(const World& world, Is&& is) {
-  for (std::uint32_t object = 0; object < world.objectCount(); ++object)
+  for (const std::uint32_t object : world.kindsOfObjects())
     if (!world.shapeOf(object).empty() && is(world.termsOf(object))) return true;
   return false;
 }
@@ -213,9 +214,8 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
     return mesh && !mesh->data().normals.empty();
   };
   if (s.smoothTerminator && isConcerned("smooth-terminator")) {
-    bool any = false;
-    for (std::uint32_t i = 0; i < world.objectCount() && !any; ++i) any = hasNormals(i);
-    if (!any)
+    const std::vector<std::uint32_t> all = world.kindsOfObjects();
+    if (std::none_of(all.begin(), all.end(), hasNormals))
       warn("--smooth-terminator changes nothing: no mesh of the scene has normals at its points",
            "gennormals or crease in a mesh makes them");
   }
@@ -307,7 +307,8 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
              " finds no light in the scene: ambient light stands for light that bounces, "
              "and is left out",
          "add a light, an object with emissive, or a background with a gradient");
-  else if (traits.has(Trait::addsAmbient) && !scene.objects.empty() && isDark(scene, world))
+  else if (traits.has(Trait::addsAmbient) && !(scene.objects.empty() && scene.uses.empty()) &&
+           isDark(scene, world))
     warn("no light: everything will be black",
          "add one, as in point_light { position = (0, 0, 5); color = (1, 1, 1); }");
 }
@@ -365,7 +366,7 @@ class LinkCheck {
 void warnOfWrongLinks(const Scene& scene, Messages& messages) {
   LinkCheck objects("object", "sphere { name = \"ball\"; }"),
       lights("light", "point_light { name = \"key\"; ... }");
-  for (const Object& object : scene.objects) objects.know(object.name);
+  for (const Object* object : allObjects(scene)) objects.know(object->name);
   for (const LightSource& source : scene.lights) lights.know(source.links.name);
   for (const LightSource& source : scene.lights) objects.look(source.links, source.place, messages);
   for (const Object& object : scene.objects) lights.look(object.links, object.place, messages);

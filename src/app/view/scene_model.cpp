@@ -8,6 +8,7 @@
 
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellate.h"
+#include "scene/groups.h"
 
 namespace trace {
 namespace {
@@ -19,7 +20,8 @@ constexpr int kLooks = 24;        // rays across and down, to find what a camera
 constexpr double kAside = 0.2;    // share of the picture on each side that is not asked
 constexpr double kFarOut = 0.15;  // share of the points seen that is left out on each side
 
-constexpr double kFarther = 1e6;  // times as far from the camera as the first quarter: left out
+constexpr std::size_t kMostDrawnCopies = 2000;  // objects of placed groups that are drawn
+constexpr double kFarther = 1e6;                // times as far from the camera as the first quarter: left out
 
 /// The colour that diffuse light gives it. Mirrors and glass have hardly one of their own: as far as that
 /// leaves room, what they reflect and let through is shown instead.
@@ -116,7 +118,10 @@ Box3 frameAround(const std::vector<Box3>& boxes, const Vec3& eye) {
 
 }  // namespace
 
-Box3 frameOf(const Scene& scene) { return frameAround(drawnBoxes(scene), scene.camera.position); }
+Box3 frameOf(const Scene& scene) {
+  if (!scene.uses.empty()) return frameOf(firstCopies(scene, kMostDrawnCopies));
+  return frameAround(drawnBoxes(scene), scene.camera.position);
+}
 
 SceneModeler::Made SceneModeler::made(const Shape& shape, const Box3& within, std::vector<Made>& kept) const {
   const bool lasts = !drawnBounds(shape, kEverywhere).unbounded() && !shape.is<Mesh>();
@@ -136,8 +141,10 @@ SceneModeler::Made SceneModeler::made(const Shape& shape, const Box3& within, st
   return made;
 }
 
-SceneModel SceneModeler::model(const Scene& scene, const Cancelled& cancelled) {
+SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled) {
   SceneModel model;
+  const Scene copies = given.uses.empty() ? Scene() : firstCopies(given, kMostDrawnCopies);
+  const Scene& scene = given.uses.empty() ? given : copies;
   const std::vector<Box3> boxes = drawnBoxes(scene);
   const Box3 frame = frameAround(boxes, scene.camera.position);
   if (!frame.empty()) {
@@ -171,8 +178,9 @@ SceneModel SceneModeler::model(const Scene& scene, const Cancelled& cancelled) {
     for (const auto& [material, firsts] : triangles) {
       if (material >= scene.materials.size()) continue;  // as if nothing were there
       const Phong phong = phongOf(scene.materials[material]);
+      const std::uint32_t number = i < given.objects.size() ? i : ScenePart::kCopy;
       model.parts.push_back(
-          {i, lookOf(phong), opacityOf(phong), model.corners.size() / 6, 3 * firsts.size(), box});
+          {number, lookOf(phong), opacityOf(phong), model.corners.size() / 6, 3 * firsts.size(), box});
       for (const std::size_t first : firsts)
         for (std::size_t corner = first; corner < first + 3; ++corner) {
           const auto p = model.local(object.worldFromObject * (*corners)[corner].point);
@@ -184,6 +192,11 @@ SceneModel SceneModeler::model(const Scene& scene, const Cancelled& cancelled) {
   }
   made_ = std::move(kept);
   model.warnings = drawn.warnings(scene.file);
+  if (const std::size_t all = countPlacedObjects(given); all > kMostDrawnCopies)
+    model.warnings.push_back({Message::Severity::warning, Place{.file = given.file},
+                              "the view in space shows " + std::to_string(kMostDrawnCopies) + " of " +
+                                  std::to_string(all) + " objects in placed groups",
+                              "the render shows all"});
   return model;
 }
 
@@ -214,12 +227,12 @@ Box3 seenBy(const World& world, const Box3& frame) {
 }
 
 bool sameModel(const Scene& a, const Scene& b) {
-  return a.materials == b.materials && std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(),
-                                                  b.objects.end(), [](const Object& x, const Object& y) {
-                                                    return x.shape == y.shape &&
-                                                           x.worldFromObject == y.worldFromObject &&
-                                                           x.material == y.material;
-                                                  });
+  return a.materials == b.materials && a.groups == b.groups && a.uses == b.uses &&
+         std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(),
+                    [](const Object& x, const Object& y) {
+                      return x.shape == y.shape && x.worldFromObject == y.worldFromObject &&
+                             x.material == y.material;
+                    });
 }
 
 }  // namespace trace

@@ -17,7 +17,9 @@ namespace trace {
 
 /// A part of an object that has one material.
 struct ScenePart {
-  std::uint32_t object = 0;          ///< index into Scene::objects
+  static constexpr std::uint32_t kCopy = 0xffffffffu;
+
+  std::uint32_t object = 0;          ///< index into Scene::objects; kCopy of one in a placed group
   Color color;                       ///< what it looks like in white light
   Real opacity = 1;                  ///< less of what transmits light
   std::size_t first = 0, count = 0;  ///< first and count of SceneModel::corners

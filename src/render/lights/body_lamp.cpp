@@ -52,7 +52,7 @@ Real ballAngle(Real away2) { return away2 > 1 ? 2 * kPi / (away2 * (1 + coneCosi
 std::optional<BodyLamp> BodyLamp::of(const World& world, std::uint32_t object) {
   BodyLamp body;
   body.crossings_ = mostPlaces(world, object);
-  const Box3& bounds = world.boundsOf(object);
+  const Box3 bounds = world.boundsOf(object);
   const Box3 own = world.ownBoundsOf(object);
   if (body.crossings_ == 0 || bounds.empty() || bounds.unbounded() || own.unbounded()) return {};
   constexpr Real kMore = 1 + 1e-9, kFlat = 1e-3;  // for rounding; of what is flat, over its longest side

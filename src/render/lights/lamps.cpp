@@ -44,7 +44,7 @@ Lamps::Lamps(const World& world, int threads, bool onlyHere)
     const std::string_view shape = world.shapeOf(object);
     if (isBlack(emissive) || shape.empty()) continue;
     const auto first = static_cast<std::uint32_t>(parts_.size());
-    const Affine& m = world.worldFromObject(object);
+    const Affine m = world.worldFromObject(object);
     if (const MeshTree* tree = world.meshTree(object)) {
       const MeshData& mesh = tree->data();
       for (const Triangle& t : mesh.triangles) {

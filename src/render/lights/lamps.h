@@ -136,7 +136,9 @@ class Lamps {
     const bool mesh = parts_[first_[object]].kind == Part::Kind::triangle;
     return parts_[first_[object] + (mesh ? part : 0)];
   }
-  bool isLamp(std::uint32_t object) const { return !parts_.empty() && first_[object] != kNone; }
+  bool isLamp(std::uint32_t object) const {
+    return object < first_.size() && !parts_.empty() && first_[object] != kNone;
+  }
   bool choosesSky() const { return !sky_.empty() || !portals_.empty(); }
   /// How often the environment is chosen, and how often of these by its brightness, not through a portal.
   Real skyShare() const { return !choosesSky() ? 0 : parts_.empty() ? 1 : 0.5; }

@@ -68,7 +68,7 @@ bool Interaction::spreads(const Subsurface& said) const {
   constexpr Real kKnown = 0x1p-44;
   const Color loses = said.scatters + said.absorbs;
   const Real least = min(loses.r, min(loses.g, loses.b)) * said.millimetres;
-  const Box3& box = tracer.world().boundsOf(hit.object);
+  const Box3 box = tracer.world().boundsOf(hit.object);
   const Real size = maxComponent(abs(hit.surface.point)) + (box.empty() ? 0 : length(box.size()));
   return !(least * size * kKnown > 1);
 }

@@ -66,7 +66,7 @@ std::optional<Entrance> byProfile(const Interaction& at, const std::array<Profil
   const Vec3 middle = here.point + (across * std::cos(phi) + aside * std::sin(phi)) * r;
 
   // The line from one side of the body to the other; of an infinite one, as far as light gets.
-  const Box3& box = world.boundsOf(at.hit.object);
+  const Box3 box = world.boundsOf(at.hit.object);
   Real half = 0;
   if (box.empty()) {
     for (const Profile& profile : profiles) half = std::max(half, profile.distance(1 - 1e-6));

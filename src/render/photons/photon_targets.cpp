@@ -30,10 +30,14 @@ std::vector<PhotonTarget> photonTargetsOf(const World& world, const Settings& se
   Box3 all;
   const auto add = [&](const Box3& box) { targets.push_back({box.center(), length(box.size()) / 2}); };
   for (std::uint32_t object = 0; object < world.objectCount(); ++object) {
-    const Box3& box = world.boundsOf(object);
+    const Box3 box = world.boundsOf(object);
     if (box.empty() || box.unbounded() || !world.sendsOn(object, settings.varnish, follow)) continue;
     add(box);
     all.extend(box);
+  }
+  if (const Box3 placed = world.placedThatSendOn(settings.varnish, follow); !placed.empty()) {
+    add(placed);
+    all.extend(placed);
   }
   if (targets.size() > kMost) {
     targets.clear();

@@ -6,6 +6,7 @@
 
 #include "base/match.h"
 #include "base/text.h"
+#include "scene/groups.h"
 
 namespace trace {
 namespace {
@@ -172,9 +173,12 @@ std::string shortPlace(const Place& place) {
 }
 
 std::string objectName(const Scene& scene, std::uint32_t index) {
-  const Object& object = scene.objects[index];
-  if (!object.name.empty()) return object.name;
-  return named(object.shape.keyword(), object.place);
+  const NumberedObject found = objectOf(scene, index);
+  const std::string placement = placementName(scene, found);
+  if (!found.object) return placement;
+  const Object& object = *found.object;
+  const std::string name = object.name.empty() ? named(object.shape.keyword(), object.place) : object.name;
+  return placement.empty() ? name : name + " of " + placement;
 }
 
 std::string fillingName(const Scene& scene, std::uint32_t object) {

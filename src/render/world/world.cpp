@@ -16,8 +16,7 @@ const Bsdf& World::clear() {
   return kClear;
 }
 
-MaterialMix World::mixOfParts(const Found& found) const {
-  const Instance& instance = objects_[found.object];
+MaterialMix World::mixOfParts(const Instance& instance, const Found& found) {
   if (instance.mesh) {
     const MeshData& data = instance.mesh->data();
     const Triangle& t = data.triangles[found.part];
@@ -39,8 +38,7 @@ Bsdf World::mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix&
   return mix(of(m.material[0]), of(m.material[1]), of(m.material[2]), m.weight);
 }
 
-bool World::sendsOn(std::uint32_t object, bool varnish, bool follow) const {
-  const Instance& instance = objects_[object];
+bool World::sendsOnOf(const Instance& instance, bool varnish, bool follow) const {
   std::vector<std::uint32_t> used{instance.material};
   if (!instance.mesh) {
     instance.shape.addMaterials(used);
@@ -104,7 +102,7 @@ Filling World::filling(const Hit& hit, const WhittedTerms& terms, const Settings
     filling.kind = material == MaterialMix::kClear ? Filling::kAir : surfaces_[material].kind;
     return filling;
   };
-  const Instance& instance = objects_[hit.object];
+  const Instance& instance = instanceOf(hit.object);
   if (!nestedGlass_ || !instance.mixed || instance.mesh) return filled(terms, hit.materials.material[0]);
   const MaterialMix inside = instance.shape.inside(static_cast<std::int64_t>(hit.part), instance.material);
   return filled(whitted(*shade(hit.object, hit.part, inside, hit.surface, nullptr)), inside.material[0]);
@@ -123,7 +121,7 @@ Interfaces World::interfacesAt(const Vec3& point, const Settings& settings) cons
     const Box3& bounds = objects_[object].bounds;
     return bounds.empty() || bounds.contains(point);  // an infinite object has no bounds
   };
-  if (std::none_of(glass_.begin(), glass_.end(), mayHold)) return inside;
+  if (!placedHold_ && std::none_of(glass_.begin(), glass_.end(), mayHold)) return inside;
   // A line from inside a body leaves it before it enters it.
   const Ray ray{point, normalize(Vec3{0.36, 0.48, 0.8})};
   std::vector<Found> all;
@@ -136,7 +134,7 @@ Interfaces World::interfacesAt(const Vec3& point, const Settings& settings) cons
   std::set<std::uint32_t> met;
   std::vector<Filling> around;
   for (const Found& found : all) {
-    if (std::find(glass_.begin(), glass_.end(), found.object) == glass_.end()) continue;
+    if (!instanceOf(found.object).holds) continue;
     if (opaque(found.object) || !solid(found.object) || !met.insert(found.object).second) continue;
     const Hit hit(*this, ray, found);
     const PlaceBsdf bsdf = shade(hit);
@@ -155,8 +153,22 @@ std::size_t World::triangleCount() const {
   return count;
 }
 
+std::size_t World::placementCount() const {
+  std::size_t count = 0;
+  for (const Uses& uses : uses_) count += uses.list->size();
+  return count;
+}
+
 std::size_t World::bytes() const {
   std::size_t sum = bvh_->bytes();
+  const auto add = [&](const std::vector<Uses>& uses) {
+    for (const Uses& u : uses) sum += u.list->size() * sizeof(GroupUse);
+  };
+  add(uses_);
+  for (const Group& group : groups_) {
+    sum += group.bvh->bytes();
+    add(group.uses);
+  }
   std::set<const MeshTree*> counted;
   for (const Instance& instance : objects_)
     if (instance.mesh && counted.insert(instance.mesh.get()).second) sum += instance.mesh->bytes();

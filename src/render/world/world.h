@@ -26,6 +26,7 @@
 #include "render/world/light_tree.h"
 #include "render/world/outside.h"
 #include "render/world/statistics.h"
+#include "scene/groups.h"
 #include "scene/scene.h"
 #include "shading/differentials.h"
 #include "shading/lights/light.h"
@@ -36,7 +37,7 @@ namespace trace {
 /// A crossing of a ray with an object of the world.
 struct Found {
   Real t = kInfinity;
-  std::uint32_t object = 0;  ///< index into World::objects(), which is that of Scene::objects
+  std::uint32_t object = 0;  ///< its number: index into Scene::objects, or of a placed one (scene/groups.h)
   std::uint64_t part = 0;    ///< the crossing's part of an analytic shape, or the triangle of a mesh
   TriangleHit triangle;      ///< triangle of a mesh
 
@@ -108,10 +109,7 @@ class World {
   SurfacePoint surface(const Ray& ray, const Found& found) const;
   /// The materials at the hit point: the material of the object, of the part of it, or those of the corners
   /// of its triangle.
-  MaterialMix materialMix(const Found& found) const {
-    const Instance& instance = objects_[found.object];
-    return instance.mixed ? mixOfParts(found) : MaterialMix::only(instance.material);
-  }
+  MaterialMix materialMix(const Found& found) const { return mixAt(instanceOf(found.object), found); }
   /// Some material has holes, or is not wholly there.
   bool hasHoles() const { return hasHoles_; }
   /// The share of the surface that is there: through the rest a ray goes straight on.
@@ -156,16 +154,19 @@ class World {
     const Color filter = whitted(*bsdfAt(ray, found)).transmissive;
     return hasHoles_ ? lerp(opacityAt(ray, found), Color(1), filter) : filter;
   }
-  const Affine& worldFromObject(std::uint32_t object) const { return objects_[object].placement.outFromIn(); }
+  /// The transform of the object or of the placement with that number.
+  Affine worldFromObject(std::uint32_t object) const {
+    return object < plain_ ? objects_[object].placement.outFromIn() : placedTransform(object);
+  }
   /// Whether the place is shaded from both sides: on a mesh that is, or of a material that is.
   bool twoSided(std::uint32_t object, const MaterialMix& materials) const {
-    const auto& mesh = objects_[object].mesh;
+    const auto& mesh = instanceOf(object).mesh;
     return (mesh && mesh->data().twoSided) || (hasTwoSided_ && twoSided(materials));
   }
   /// A ray that leaves the object on the side of its normal does not hit it again.
-  bool convex(std::uint32_t object) const { return objects_[object].convex; }
+  bool convex(std::uint32_t object) const { return instanceOf(object).convex; }
   /// It encloses space; a mesh does if it is closed.
-  bool solid(std::uint32_t object) const { return objects_[object].solid; }
+  bool solid(std::uint32_t object) const { return instanceOf(object).solid; }
   /// Nested and overlapping glass objects are distinguished.
   bool nestedGlass() const { return nestedGlass_; }
   /// The interior of the object at a point on it that looks like `terms`, by the conventions of a render.
@@ -186,27 +187,34 @@ class World {
   bool hasSubsurface() const { return hasSubsurface_; }
 
   /// No part of the object transmits light.
-  bool opaque(std::uint32_t object) const { return objects_[object].opaque; }
+  bool opaque(std::uint32_t object) const { return instanceOf(object).opaque; }
 
   /// In world space; empty of one that is left out.
-  const Box3& boundsOf(std::uint32_t object) const { return objects_[object].bounds; }
+  Box3 boundsOf(std::uint32_t object) const {
+    return object < plain_ ? objects_[object].bounds : placedBounds(object);
+  }
   /// In its own space, perhaps with room left.
-  Box3 ownBoundsOf(std::uint32_t object) const { return objects_[object].shape.bounds(); }
+  Box3 ownBoundsOf(std::uint32_t object) const { return instanceOf(object).shape.bounds(); }
   /// The object's shape, "" of one that is left out.
   std::string_view shapeOf(std::uint32_t object) const {
-    const Instance& o = objects_[object];
+    const Instance& o = instanceOf(object);
     return o.bounds.empty() ? "" : o.shape.type().keyword;
   }
   /// All of it is made of one material, without textures.
   bool isUniform(std::uint32_t object) const {
-    return !objects_[object].mixed && !surfaces_[objects_[object].material].textured;
+    const Instance& o = instanceOf(object);
+    return !o.mixed && !surfaces_[o.material].textured;
   }
   /// Its material where its parts say nothing else; without its textures.
-  const WhittedTerms& termsOf(std::uint32_t object) const { return whitted(bsdf(objects_[object].material)); }
+  const WhittedTerms& termsOf(std::uint32_t object) const {
+    return whitted(bsdf(instanceOf(object).material));
+  }
 
   /// Whether something of its surface mirrors or refracts rays into one direction, or, unless they `follow`
   /// lobes, into a lobe. With `varnish` what has an index of refraction mirrors.
-  bool sendsOn(std::uint32_t object, bool varnish, bool follow) const;
+  bool sendsOn(std::uint32_t object, bool varnish, bool follow) const {
+    return sendsOnOf(instanceOf(object), varnish, follow);
+  }
 
   const CameraFrame& camera() const { return camera_; }
   const std::vector<Light>& lights() const { return lights_; }
@@ -224,7 +232,7 @@ class World {
   /// The light of that number lights the object.
   bool lights(std::size_t light, std::uint32_t object) const {
     const std::vector<bool>& lit = litObjects_[light];
-    return lit.empty() || lit[object];
+    return lit.empty() || lit[physical(object)];
   }
   /// A choice among lights().
   const LightTree& lightTree() const { return *lightTree_; }
@@ -242,12 +250,21 @@ class World {
   /// The environment that rays see when they hit nothing.
   const Outside& outside() const { return outside_; }
   const Box3& bounds() const { return bounds_; }  ///< bounds of the finite objects
-  std::size_t objectCount() const { return objects_.size(); }
+  /// The number of objects that are no part of a group.
+  std::size_t objectCount() const { return plain_; }
+  /// Their numbers, and those of the objects of each group where it is placed first.
+  std::vector<std::uint32_t> kindsOfObjects() const;
+  /// A number that placements have or objects in them.
+  bool isPlaced(std::uint32_t number) const { return number >= plain_; }
+  std::size_t placementCount() const;
+  /// The bounds of all placements whose objects mirror or refract rays into one direction (sendsOn).
+  Box3 placedThatSendOn(bool varnish, bool follow) const;
   const Bvh& hierarchy() const { return *bvh_; }  ///< over the objects that have an end
   /// The tree of an object that is a mesh; null for others and for what is left out.
-  const MeshTree* meshTree(std::uint32_t object) const { return objects_[object].mesh.get(); }
+  const MeshTree* meshTree(std::uint32_t object) const { return instanceOf(object).mesh.get(); }
+  /// Triangles of meshes; those in groups count once.
   std::size_t triangleCount() const;
-  /// The size of the hierarchies, without the meshes' own arrays.
+  /// The size of the hierarchies and of placements, without the meshes' own arrays.
   std::size_t bytes() const;
 
  private:
@@ -263,6 +280,7 @@ class World {
     bool solid = false;
     bool mixed = false;  ///< parts of it are made of other materials
     bool mapped = true;  ///< pictures lie on it by u and v; else they show one corner
+    bool holds = false;  ///< a ray may start inside of it: light passes it, and it encloses space
     std::uint32_t material = 0;
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
     Placement placement;
@@ -270,6 +288,48 @@ class World {
     Box3 bounds;
     TracedShape shape;
   };
+
+  /// Placements of a group, in the world or in another group.
+  struct Uses {
+    std::uint32_t group;
+    std::uint32_t firstUse;     ///< number of the first placement
+    std::uint32_t firstObject;  ///< number of the first object of the first placement
+    std::shared_ptr<const GroupUses::List> list;
+  };
+  /// A group of the scene: what its placements have in common.
+  struct Group {
+    std::uint32_t first = 0,
+                  count = 0;    ///< its objects in objects_, in whose space `bounds` are those of the group
+    std::uint32_t numbers = 0;  ///< how many numbers a placement takes
+    std::vector<Uses> uses{};
+    std::shared_ptr<const Bvh> bvh{};  ///< over objects and placements, by their numbers in the group
+    Box3 box{};
+    bool holds = false;  ///< something of it does
+  };
+  /// A number, resolved.
+  struct Located {
+    std::uint32_t object;  ///< index into objects_; Bvh::kNoItem for the number of a placement
+    int levels = 0;
+    const Affine* steps[kMostGroupLevels];  ///< the outermost placement first
+  };
+  Located locate(std::uint32_t number) const;
+  /// The index into objects_ of the object with that number.
+  std::uint32_t physical(std::uint32_t number) const {
+    return number < plain_ ? number : locate(number).object;
+  }
+  const Instance& instanceOf(std::uint32_t number) const { return objects_[physical(number)]; }
+  bool sendsOnOf(const Instance& instance, bool varnish, bool follow) const;
+  Affine placedTransform(std::uint32_t number) const;
+  Affine objectFromWorld(std::uint32_t number) const {
+    return number < plain_ ? objects_[number].placement.inFromOut() : inverse(placedTransform(number));
+  }
+  Box3 placedBounds(std::uint32_t number) const;
+  void addGroups(const Scene& scene, const Settings& settings);
+  std::vector<Uses> usesOf(const std::vector<GroupUses>& uses, std::size_t objects) const;
+  /// The boxes of placements, in the space in which they are placed; `all` grows around them.
+  void addBoxes(const std::vector<Uses>& uses, std::vector<BoxedItem>* items, Box3& all) const;
+  /// Over objects with these boxes, and placements in the world.
+  std::shared_ptr<const Bvh> topHierarchy(const std::vector<Box3>& boxes, const Settings& settings) const;
 
   // Queries, object by object. What is rarer than a mesh seen from both sides is kept apart, so that the way
   // to a mesh stays short; in the tree there is one copy of it.
@@ -282,11 +342,20 @@ class World {
   /// Whether the faces include the triangle that was hit; the ray is in the space of the object, a mesh.
   bool included(Faces faces, std::uint32_t object, const Ray& ray, const MeshHit& met) const {
     if (sees(faces, ray, objects_[object].mesh->data(), met)) return true;
-    return hasTwoSided_ && twoSided(materialMix({met.hit.t, object, met.triangle, met.hit}));
+    return hasTwoSided_ && twoSided(mixAt(objects_[object], {met.hit.t, object, met.triangle, met.hit}));
   }
   template <class Nodes>
   [[gnu::noinline]] void closestOfShape(const Instance& instance, std::uint32_t object, const Ray& ray,
                                         QueryCounts<Nodes>& counts, Found& best) const;
+  /// The nearest crossing in a placement; the ray and numbers are those of the space around it.
+  struct Around {
+    const Ray& ray;
+    Faces faces;
+    std::uint32_t base;  ///< what is added to a number there to make one of the world
+  };
+  template <class Nodes>
+  [[gnu::noinline]] void closestInUse(std::uint32_t use, const std::vector<Uses>& uses, const Around& around,
+                                      QueryCounts<Nodes>& counts, Found& best) const;
   /// The query of all crossings.
   template <class Nodes>
   struct Across {
@@ -307,7 +376,17 @@ class World {
   template <class Nodes>
   [[gnu::noinline]] bool crossShape(std::uint32_t object, const Ray& ray, const Across<Nodes>& query) const;
 
-  [[gnu::noinline]] MaterialMix mixOfParts(const Found& found) const;
+  template <class Nodes>
+  [[gnu::noinline]] bool crossUse(std::uint32_t use, const std::vector<Uses>& uses, std::uint32_t base,
+                                  const Across<Nodes>& query) const;
+
+  MaterialMix mixAt(const Instance& instance, const Found& found) const {
+    return instance.mixed ? mixOfParts(instance, found) : MaterialMix::only(instance.material);
+  }
+  [[gnu::noinline]] static MaterialMix mixOfParts(const Instance& instance, const Found& found);
+  /// On an object of objects_; the ray is in the space that it stands in.
+  SurfacePoint surfaceOn(std::uint32_t object, const Ray& ray, const Found& found) const;
+  [[gnu::noinline]] SurfacePoint placedSurface(const Ray& ray, const Found& found) const;
   /// The direction in which u grows.
   Vec3 along(const Hit& hit) const;
 
@@ -329,7 +408,11 @@ class World {
   /// Takes the forms out of the shapes of all objects, to lie side by side.
   void collectForms();
 
-  std::vector<Instance> objects_;
+  std::vector<Instance> objects_;  ///< those of the scene, then those of its groups
+  std::uint32_t plain_ = 0;        ///< how many are no part of a group
+  std::vector<Group> groups_;
+  std::vector<Uses> uses_;              ///< placements in the world
+  bool placedHold_ = false;             ///< some placed object holds rays
   std::shared_ptr<const Forms> forms_;  ///< forms of each object
   std::shared_ptr<const Bvh> bvh_;
   std::vector<std::uint32_t> always_;  ///< objects that every ray may hit: those infinite, which no

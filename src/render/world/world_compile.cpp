@@ -44,6 +44,11 @@ class TreesOfMeshes {
 
 namespace {
 
+std::shared_ptr<const Bvh> hierarchy(std::vector<BoxedItem> items, const Settings& settings) {
+  return std::make_shared<const Bvh>(settings.accel == Accel::none
+                                         ? Bvh::bruteForce(items)
+                                         : Bvh(std::move(items), Bvh::Leaves::single, settings.threads));
+}
 std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes, const Settings& settings) {
   return std::make_shared<const Bvh>(settings.accel == Accel::none
                                          ? Bvh::bruteForce(boxes)
@@ -70,12 +75,13 @@ std::vector<Material> shownAs(std::vector<Material> materials, const Settings& s
 class World::Earlier {
  public:
   Earlier(const Compiled* before, const Scene& scene, const Settings& settings)
-      : before_(before), scene_(scene) {
+      : before_(before), objects_(allObjects(scene)) {
     if (!before) return;
+    old_ = allObjects(before->scene);
     sameAccel_ = (before->settings.accel == Accel::none) == (settings.accel == Accel::none);
     sameNormals_ = before->settings.vertexNormals == settings.vertexNormals;
     materials_ = shownAs(before->scene.materials, before->settings);
-    for (std::size_t i = 0; i < before->scene.objects.size(); ++i) {
+    for (std::size_t i = 0; i < old_.size(); ++i) {
       const Instance& instance = before->world.objects_[i];
       if (const auto data = instance.shape.mesh(); data && instance.mesh)
         trees_.of(data.get(), Displacement(*data, instance.material, materials_)) = instance.mesh;
@@ -87,9 +93,8 @@ class World::Earlier {
   /// was before others were deleted or added. Null if there is none.
   const Instance* sameShape(std::uint32_t i) const {
     if (!before_) return nullptr;
-    const std::vector<Object>& old = before_->scene.objects;
-    for (const std::size_t j : {std::size_t{i}, i + old.size() - scene_.objects.size()})
-      if (j < old.size() && old[j].shape == scene_.objects[i].shape) return &before_->world.objects_[j];
+    for (const std::size_t j : {std::size_t{i}, i + old_.size() - objects_.size()})
+      if (j < old_.size() && old_[j]->shape == objects_[i]->shape) return &before_->world.objects_[j];
     return nullptr;
   }
 
@@ -106,18 +111,23 @@ class World::Earlier {
   /// The hierarchies of meshes that solids are made of.
   const MeshTrees& operandTrees() const { return operandTrees_; }
 
-  /// The hierarchy over objects with these bounds; null if it has to be made.
-  std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes) const {
+  /// The hierarchy of the world over objects with these bounds; null if it has to be made.
+  std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes, const World& world) const {
     if (!before_ || !sameAccel_) return nullptr;
-    const std::vector<Instance>& old = before_->world.objects_;
-    const bool same = std::equal(old.begin(), old.end(), boxes.begin(), boxes.end(),
-                                 [](const Instance& a, const Box3& box) { return a.bounds == box; });
-    return same ? before_->world.bvh_ : nullptr;
+    const World& old = before_->world;
+    const bool same = std::equal(old.objects_.begin(), old.objects_.begin() + old.plain_, boxes.begin(),
+                                 boxes.end(), [](const Instance& a, const Box3& b) { return a.bounds == b; });
+    const auto alike = [&](const Uses& a, const Uses& b) {
+      return a.list == b.list && old.groups_[a.group].box == world.groups_[b.group].box;
+    };
+    const bool sameUses =
+        std::equal(old.uses_.begin(), old.uses_.end(), world.uses_.begin(), world.uses_.end(), alike);
+    return same && sameUses ? old.bvh_ : nullptr;
   }
 
  private:
   const Compiled* before_;
-  const Scene& scene_;
+  std::vector<const Object*> objects_, old_;
   bool sameAccel_ = false, sameNormals_ = false;
   std::vector<Material> materials_;  // materials of the scene before, as it was shown
   TreesOfMeshes trees_;
@@ -235,8 +245,12 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   std::vector<const Object*> undisplaced;  // what its material displaces in vain
   LeftOut leftOut("this object");
   std::vector<Box3> boxes;
-  Work work("building the objects", static_cast<std::int64_t>(scene.objects.size()));
-  for (const Object& object : scene.objects) {
+  const std::vector<const Object*> all = allObjects(scene);
+  world.plain_ = static_cast<std::uint32_t>(scene.objects.size());
+  Work work("building the objects", static_cast<std::int64_t>(all.size()));
+  for (const Object* at : all) {
+    const Object& object = *at;
+    const bool inGroup = world.objects_.size() >= scene.objects.size();
     work.reached(static_cast<std::int64_t>(boxes.size()));
     const World::Instance* same = earlier.sameShape(static_cast<std::uint32_t>(world.objects_.size()));
     World::Instance instance(same ? same->shape : prepared(object, earlier.operandTrees()));
@@ -251,7 +265,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     if (object.material >= world.surfaces_.size())
       throw Error(Fault::scene, object.place, "the object's material does not exist");
     if (settings.omit.has(static_cast<ShapeKind>(instance.kind))) {
-      boxes.emplace_back();  // keeps the numbering of objects; what is empty is never hit
+      if (!inGroup) boxes.emplace_back();  // keeps the numbering of objects; what is empty is never hit
       world.objects_.push_back(std::move(instance));
       continue;
     }
@@ -304,14 +318,17 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     const bool isThere = inRange && !flat;
     const auto number = static_cast<std::uint32_t>(world.objects_.size());
     const Material& material = materials[object.material];
-    const bool fills = material.mediumDensity > 0 && isThere && !box.unbounded();
+    const bool fills = material.mediumDensity > 0 && isThere && !box.unbounded() && !inGroup;
     const bool encloses = isThere && !instance.opaque && (world.nestedGlass_ || fills || settings.fog > 0) &&
                           (instance.mesh ? closed(instance.mesh->data()) : instance.shape.solid());
     const bool cloud = fills && encloses && material.opacity == 0 &&
                        std::all_of(used.begin(), used.end(), [&](auto m) { return m == object.material; });
     if (fills && encloses)
       world.media_.push_back({number, cloud, MediumModel(material), instance.placement.outFromIn() * box});
-    if (encloses && !cloud) world.glass_.push_back(number);
+    if (inGroup && box.unbounded())
+      throw Error(Fault::scene, object.place, "an object without an end cannot be in a group that is placed");
+    instance.holds = encloses && !cloud;
+    if (instance.holds && !inGroup) world.glass_.push_back(number);
     if (cloud) {  // it is hit nowhere
       world.bounds_.extend(world.media_.back().bounds);
     } else if (isThere) {
@@ -320,15 +337,19 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       else
         instance.bounds = instance.placement.outFromIn() * box;
     }
-    boxes.push_back(instance.bounds);
-    world.bounds_.extend(instance.bounds);
+    if (!inGroup) {
+      boxes.push_back(instance.bounds);
+      world.bounds_.extend(instance.bounds);
+    }
     world.objects_.push_back(std::move(instance));
   }
   warnOfUndisplaced(undisplaced, messages);
   leftOut.warn(messages);
   world.collectForms();
-  world.bvh_ = earlier.hierarchy(boxes);
-  if (!world.bvh_) world.bvh_ = hierarchy(boxes, settings);
+  world.addGroups(scene, settings);
+  world.bvh_ = earlier.hierarchy(boxes, world);
+  if (!world.bvh_)
+    world.bvh_ = world.uses_.empty() ? hierarchy(boxes, settings) : world.topHierarchy(boxes, settings);
   if (world.bvh_->nodes().empty())
     world.always_.insert(world.always_.end(), world.bvh_->items().begin(), world.bvh_->items().end());
   world.focus(scene, settings);

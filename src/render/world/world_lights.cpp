@@ -25,14 +25,15 @@ class Chosen {
   std::set<std::string_view> only_, none_;
 };
 
-/// Whether the light lights each object, by their numbers; empty where all are lit.
-std::vector<bool> litBy(const LightLinks& links, const std::vector<Object>& objects) {
+/// Whether the light lights each object, by their numbers; empty where all are lit. Those of groups have the
+/// last ones.
+std::vector<bool> litBy(const LightLinks& links, const std::vector<const Object*>& objects) {
   const Chosen byLight(links.lights, links.excludes);
-  const auto isLit = [&](const Object& o) {
-    return byLight(o.name) && Chosen(o.links.litBy, o.links.notLitBy)(links.name);
+  const auto isLit = [&](const Object* o) {
+    return byLight(o->name) && Chosen(o->links.litBy, o->links.notLitBy)(links.name);
   };
   const bool noneSays =
-      std::all_of(objects.begin(), objects.end(), [](const Object& o) { return o.links == ObjectLinks{}; });
+      std::all_of(objects.begin(), objects.end(), [](const Object* o) { return o->links == ObjectLinks{}; });
   if (byLight.all() && noneSays) return {};
   std::vector<bool> lit(objects.size());
   std::transform(objects.begin(), objects.end(), lit.begin(), isLit);
@@ -43,6 +44,7 @@ std::vector<bool> litBy(const LightLinks& links, const std::vector<Object>& obje
 
 void World::addLights(const Scene& scene, const Settings& settings, Messages& messages) {
   LeftOut leftOut("this light");
+  const std::vector<const Object*> objects = allObjects(scene);
   std::vector<LightReach> reaches;
   std::vector<Box3> boxes;  // boxes of the visible ones
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
@@ -69,7 +71,7 @@ void World::addLights(const Scene& scene, const Settings& settings, Messages& me
     lights_.push_back(light);
     lightGeometries_.push_back(geometry);
     lightSources_.push_back(i);
-    litObjects_.push_back(litBy(source.links, scene.objects));
+    litObjects_.push_back(litBy(source.links, objects));
   }
   leftOut.warn(messages);
   lightTree_ = std::make_shared<const LightTree>(reaches);

@@ -55,18 +55,19 @@ Real shortWay(Real from, Real to) {
 /// By differences over steps so short that their square is lost in rounding: shapes put a place beside their
 /// surface back on it, so that one way serves all, and solids of solids too.
 SurfaceSlopes World::slopes(std::uint32_t object, std::uint64_t part, const SurfacePoint& here) const {
-  const Instance& instance = objects_[object];
-  const Affine& out = instance.placement.outFromIn();
-  const Real size = instance.bounds.unbounded() || instance.bounds.empty()
+  const Instance& instance = instanceOf(object);
+  const Affine out = worldFromObject(object), in = objectFromWorld(object);
+  const Box3 bounds = boundsOf(object);
+  const Real size = bounds.unbounded() || bounds.empty()
                         ? maxComponent(abs(out.row[0]) + abs(out.row[1]) + abs(out.row[2]))
-                        : maxComponent(instance.bounds.size());
+                        : maxComponent(bounds.size());
   const Real step = size * 0x1p-20 + maxComponent(abs(here.point)) * 0x1p-40;
   const auto beside = [&](const Vec3& p) {
     constexpr Real kAbove = 0x1p10;  // in steps: where the ray to the place starts
     Found found{kAbove * step, object, part, {}};
     if (instance.mesh)
-      found.triangle = Barycentric(corners(instance.mesh->data(), static_cast<std::uint32_t>(part)))
-                           .at(instance.placement.inFromOut() * p);
+      found.triangle =
+          Barycentric(corners(instance.mesh->data(), static_cast<std::uint32_t>(part))).at(in * p);
     return surface({p + here.normal * found.t, -here.normal}, found);
   };
 
@@ -87,12 +88,13 @@ SurfaceSlopes World::slopes(std::uint32_t object, std::uint64_t part, const Surf
 
 TexturePlace World::place(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
                           const Differentials* arrived) const {
-  const Affine& in = objects_[object].placement.inFromOut();
+  const Instance& instance = instanceOf(object);
+  const Affine in = objectFromWorld(object);
   TexturePlace place;
   place.point = in * surface.point;
-  const bool mapped = objects_[object].mapped;
+  const bool mapped = instance.mapped;
   if (mapped) place.uv = place.secondUv = surface.uv;
-  const MeshTree* tree = objects_[object].mesh.get();
+  const MeshTree* tree = instance.mesh.get();
   const MeshData* second = tree && !tree->data().secondUvs.empty() ? &tree->data() : nullptr;
   if (second) {
     const Triangle& t = second->triangles[part];
@@ -133,22 +135,23 @@ TexturePlace World::place(std::uint32_t object, std::uint64_t part, const Surfac
 
 SurfaceSlopes World::secondSlopes(const Hit& hit) const {
   SurfaceSlopes slopes = this->slopes(hit);
-  const Instance& instance = objects_[hit.object];
+  const Instance& instance = instanceOf(hit.object);
   if (!instance.mesh || instance.mesh->data().secondUvs.empty()) return slopes;
   const MeshData& mesh = instance.mesh->data();
   const Gradients g = gradientsOf(mesh, static_cast<std::uint32_t>(hit.part), mesh.secondUvs);
-  slopes.u = transposed(instance.placement.inFromOut(), g.u);
-  slopes.v = transposed(instance.placement.inFromOut(), g.v);
+  const Affine in = objectFromWorld(hit.object);
+  slopes.u = transposed(in, g.u);
+  slopes.v = transposed(in, g.v);
   return slopes;
 }
 
 std::optional<SurfacePoint> World::raised(const Hit& hit, bool turned) const {
-  const Instance& instance = objects_[hit.object];
+  const Instance& instance = instanceOf(hit.object);
   if (!instance.mesh || instance.mesh->data().normals.empty()) return {};
   const MeshData& mesh = instance.mesh->data();
   const Corners v = corners(mesh, static_cast<std::uint32_t>(hit.part));
   const Triangle& t = mesh.triangles[hit.part];
-  const Vec3 p = instance.placement.inFromOut() * hit.surface.point;
+  const Vec3 p = objectFromWorld(hit.object) * hit.surface.point;
   const TriangleHit at = Barycentric(v).at(p);
   Vec3 rise;
   for (int i = 0; i < 3; ++i) {
@@ -160,7 +163,7 @@ std::optional<SurfacePoint> World::raised(const Hit& hit, bool turned) const {
     rise += normal * (max(at.b[i], 0) * max(dot(corner - p, normal), 0));
   }
   SurfacePoint place = hit.surface;
-  const Vec3 move = linear(instance.placement.outFromIn(), rise);
+  const Vec3 move = linear(worldFromObject(hit.object), rise);
   place.point += move;
   place.error += (abs(hit.surface.point) + abs(move)) * gammaError(4);
   const Real outward = dot(move, hit.surface.normal) * (turned ? -1 : 1);
@@ -171,7 +174,7 @@ std::optional<SurfacePoint> World::raised(const Hit& hit, bool turned) const {
 Vec3 World::along(const Hit& hit) const {
   const Vec3 grows = slopes(hit).u;
   if (length(grows) > 0) return grows;
-  const Affine& placed = worldFromObject(hit.object);
+  const Affine placed = worldFromObject(hit.object);
   const Vec3 axis = linear(placed, {0, 0, 1}), around = cross(axis, hit.surface.shading);
   // On a face across the axis that is the normal to the last digits.
   return length(around) > gammaError(64) * length(axis) ? around : linear(placed, {1, 0, 0});

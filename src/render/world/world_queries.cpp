@@ -23,7 +23,47 @@ namespace {
 
 /// The nodes of a mesh are distinguished from those of the scene for observers.
 void enter(NodeCount&, std::uint32_t) {}
-void enter(NodeWatch& nodes, std::uint32_t object) { nodes.owner = object; }
+void enter(NodeWatch& nodes, std::uint32_t object) {
+  nodes.owner = object == NodeWatch::kTop ? nodes.placement : object + nodes.shift;
+}
+
+/// Those of a placement, too.
+template <class Nodes>
+struct Within {
+  Within(Nodes&, std::uint32_t, std::uint32_t) {}
+};
+template <>
+struct Within<NodeWatch> {
+  Within(NodeWatch& nodes, std::uint32_t placement, std::uint32_t shift) : nodes_(nodes), before_(nodes) {
+    nodes.owner = nodes.placement = placement;
+    nodes.shift = shift;
+  }
+  ~Within() {
+    nodes_.owner = before_.owner;
+    nodes_.placement = before_.placement;
+    nodes_.shift = before_.shift;
+  }
+  Within(const Within&) = delete;
+  Within& operator=(const Within&) = delete;
+
+ private:
+  NodeWatch& nodes_;
+  const NodeWatch before_;
+};
+
+/// The ray in the space of a group.
+Ray into(const Affine& outFromGroup, const Ray& ray) {
+  const Affine in = inverse(outFromGroup);
+  return {in * ray.origin, linear(in, ray.direction)};
+}
+
+/// Those among which the placement of that number is.
+template <class Uses>
+const Uses& usesWith(const std::vector<Uses>& uses, std::uint32_t use) {
+  std::size_t at = 0;
+  while (at + 1 < uses.size() && uses[at + 1].firstUse <= use) ++at;
+  return uses[at];
+}
 
 }  // namespace
 
@@ -36,7 +76,10 @@ std::optional<Found> World::closest(const Ray& ray, Faces faces, QueryCounts<Nod
   best->t = tMost;
   const auto ask = [&](std::uint32_t object) {
     checkBudget();
-    closestOf(object, ray, faces, counts, *best);
+    if (object >= plain_) [[unlikely]]
+      closestInUse(object, uses_, {ray, faces, 0}, counts, *best);
+    else
+      closestOf(object, ray, faces, counts, *best);
     return false;
   };
   checkBudget();
@@ -109,12 +152,16 @@ void World::closestOfShape(const Instance& instance, std::uint32_t object, const
 template std::optional<Found> World::closest(const Ray&, Faces, QueryCounts<NodeCount>&, Real) const;
 template std::optional<Found> World::closest(const Ray&, Faces, QueryCounts<NodeWatch>&, Real) const;
 
-SurfacePoint World::surface(const Ray& worldRay, const Found& found) const {
-  const Instance& instance = objects_[found.object];
+SurfacePoint World::surface(const Ray& ray, const Found& found) const {
+  return found.object < plain_ ? surfaceOn(found.object, ray, found) : placedSurface(ray, found);
+}
+
+SurfacePoint World::surfaceOn(std::uint32_t object, const Ray& worldRay, const Found& found) const {
+  const Instance& instance = objects_[object];
   const Placement& placement = instance.placement;
   const Ray ray = placement.moved() ? placement.into(worldRay) : worldRay;
   const SurfacePoint s =
-      match(forms_->all[found.object],
+      match(forms_->all[object],
             Overloaded{[&](const Mesh&) {
                          return trace::surface(instance.mesh->data(), static_cast<std::uint32_t>(found.part),
                                                found.triangle);
@@ -133,7 +180,7 @@ bool World::crossAll(const Across<Nodes>& query) const {
   bool ended = false;
   const auto ask = [&](std::uint32_t object) {
     checkBudget();
-    return ended = crossObject(object, query);
+    return ended = object < plain_ ? crossObject(object, query) : crossUse(object, uses_, 0, query);
   };
   checkBudget();
   const Ray& ray = query.ray;
@@ -188,7 +235,103 @@ bool World::crossShape(std::uint32_t object, const Ray& ray, const Across<Nodes>
 void World::crossingsOf(std::uint32_t object, const Ray& ray, Real tMost, Statistics& statistics,
                         VisitFound visit) const {
   checkBudget();
-  crossObject(object, Across<NodeCount>{ray, tMost, Faces::both, false, statistics, visit});
+  if (object < plain_) {
+    crossObject(object, Across<NodeCount>{ray, tMost, Faces::both, false, statistics, visit});
+    return;
+  }
+  const Located at = locate(object);
+  Ray inside = ray;
+  for (int level = 0; level < at.levels; ++level) inside = into(*at.steps[level], inside);
+  crossObject(at.object, Across<NodeCount>{inside, tMost, Faces::both, false, statistics, [&](Found found) {
+                                             found.object = object;
+                                             return visit(found);
+                                           }});
+}
+
+// --- placements ---------------------------------------------------------------------------------------
+
+template <class Nodes>
+void World::closestInUse(std::uint32_t use, const std::vector<Uses>& uses, const Around& around,
+                         QueryCounts<Nodes>& counts, Found& best) const {
+  const Uses& list = usesWith(uses, use);
+  const Group& group = groups_[list.group];
+  const std::uint32_t index = use - list.firstUse, first = list.firstObject + index * group.numbers,
+                      base = around.base + first;
+  Ray ray = into((*list.list)[index].outFromGroup, around.ray);
+  const std::uint32_t left = around.ray.leaves - first;
+  ray.leaves = left < group.numbers ? left : Ray::kNothing;
+  const Within<Nodes> within(counts.nodes, around.base + use, base - group.first);
+  const auto ask = [&](std::uint32_t item) {
+    checkBudget();
+    if (item >= group.count) {
+      closestInUse(item, group.uses, {ray, around.faces, base}, counts, best);
+      return false;
+    }
+    // At the same distance the lower number counts, which is not that in objects_.
+    const std::uint32_t number = base + item, object = group.first + item,
+                        rank = best.object == number  ? object
+                               : best.object < number ? 0
+                                                      : Ray::kNothing;
+    Found found = best;
+    found.object = rank;
+    closestOf(object, ray, around.faces, counts, found);
+    if (found.t == best.t && found.object == rank && found.part == best.part) return false;
+    best = found;
+    best.object = number;
+    return false;
+  };
+  if (group.bvh->nodes().empty()) {
+    for (const std::uint32_t item : group.bvh->items())
+      if (item != ray.leaves) ask(item);
+  } else {
+    group.bvh->query(ray.origin, ray.direction, best.t, true, counts.nodes, ask, ray.leaves);
+  }
+}
+
+template <class Nodes>
+bool World::crossUse(std::uint32_t use, const std::vector<Uses>& uses, std::uint32_t outer,
+                     const Across<Nodes>& query) const {
+  const Uses& list = usesWith(uses, use);
+  const Group& group = groups_[list.group];
+  const std::uint32_t index = use - list.firstUse, first = list.firstObject + index * group.numbers,
+                      base = outer + first;
+  Ray ray = into((*list.list)[index].outFromGroup, query.ray);
+  const std::uint32_t left = query.ray.leaves - first;
+  ray.leaves = left < group.numbers ? left : Ray::kNothing;
+  const Within<Nodes> within(query.counts.nodes, outer + use, base - group.first);
+  bool ended = false;
+  const auto ask = [&](std::uint32_t item) {
+    checkBudget();
+    const auto inside = [&](VisitFound visit) {
+      return Across<Nodes>{ray, query.tMost, query.faces, query.opaqueEnds, query.counts, visit};
+    };
+    if (item >= group.count) return ended = crossUse(item, group.uses, base, inside(query.visit));
+    const auto numbered = [&](Found found) {
+      found.object = base + item;
+      return query.visit(found);
+    };
+    return ended = crossObject(group.first + item, inside(numbered));
+  };
+  if (group.bvh->nodes().empty()) {
+    for (const std::uint32_t item : group.bvh->items())
+      if (item != ray.leaves && ask(item)) break;
+  } else {
+    group.bvh->query(ray.origin, ray.direction, query.tMost, false, query.counts.nodes, ask, ray.leaves);
+  }
+  return ended;
+}
+
+SurfacePoint World::placedSurface(const Ray& ray, const Found& found) const {
+  const Located at = locate(found.object);
+  Placement placements[kMostGroupLevels];
+  Ray inside = ray;
+  for (int level = 0; level < at.levels; ++level) {
+    placements[level] = Placement(*at.steps[level]);
+    inside = placements[level].into(inside);
+  }
+  SurfacePoint point = surfaceOn(at.object, inside, found);
+  for (int level = at.levels; level-- > 0;) point = placements[level].outOf(point);
+  return point;
 }
 
 template bool World::crossAll(const Across<NodeCount>&) const;

@@ -34,7 +34,7 @@ namespace trace {
 namespace rayfile {
 
 void settle(Syntax& syntax, SceneTime& time, InputFiles& inputs) {
-  expand(syntax, time, inputs);
+  expand(syntax, time, inputs, !syntax.hasKeys() && !speaksStudents(syntax));
   translateStudents(syntax);
   settleKeys(syntax, time);
 }
@@ -64,6 +64,7 @@ class Reader {
 
   void read() {
     readItems();
+    objects_.finish();
     scene_.unusedMaterials = materials_.unused();
     if (Notes* notes = findings_.notes()) notes->last = materials_.current;
     findings_.finish();
@@ -137,7 +138,7 @@ class Reader {
   }
 
   void warnOfEmptiness() {
-    if (scene_.objects.empty())
+    if (scene_.objects.empty() && scene_.uses.empty())
       messages_.warn(Place{scene_.file, 0, 0, {}}, "no object: the picture will be empty");
   }
 

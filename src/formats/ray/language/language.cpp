@@ -22,7 +22,8 @@ namespace {
 /// Copies the tree, with what statements, names and calls make in their place.
 class Expander : Evaluator {
  public:
-  Expander(Syntax& syntax, SceneTime& time, InputFiles& inputs) : Evaluator(syntax, time, inputs) {
+  Expander(Syntax& syntax, SceneTime& time, InputFiles& inputs, bool instances)
+      : Evaluator(syntax, time, inputs), instances_(instances) {
     for (const std::string_view word : textureKinds()) textureWords_.insert(word);
   }
 
@@ -36,6 +37,12 @@ class Expander : Evaluator {
     remarkOnEmptyLoops();  // before the tree that they stand in goes
     syntax_.replace(std::move(result_));
     syntax_.setFrames(std::move(frames_));
+    if (uses_.empty()) return;
+    std::map<std::uint32_t, Syntax::Root> roots;
+    for (const auto& [key, shared] : shared_)
+      if (shared.again)
+        for (const auto& [node, root] : shared.copies) roots.emplace(node, root);
+    syntax_.setUses(std::move(uses_), std::move(roots));
   }
 
  private:
@@ -230,6 +237,7 @@ class Expander : Evaluator {
     declare(body, *own);
     items(body, own, false);
     close(group);
+    unwrap(group);
   }
 
   // --- copying ---
@@ -243,16 +251,27 @@ class Expander : Evaluator {
       case Kind::tuple:
         if (isGrouping(index)) return emit(eval(index + 1, scope), index);
         return inBrackets(index, scope);
-      case Kind::block: return inBrackets(index, scope);
+      case Kind::block: {
+        const std::size_t group = result_.size();
+        inBrackets(index, scope);
+        return unwrap(group);
+      }
       case Kind::entry: {
         const std::size_t entry = open(index);
         push(node(index + 1));
-        copy(index + 2, scope);
+        value(index + 2, scope);
         return close(entry);
       }
       case Kind::call: return call(index, scope);
       default: fail(index, "expected a value, found " + describe(at(index)));
     }
+  }
+  /// A value that is no item of a list or group.
+  void value(std::uint32_t index, const Scoped& scope) {
+    if (kind(index) == Kind::block)
+      inBrackets(index, scope);
+    else
+      copy(index, scope);
   }
   void inBrackets(std::uint32_t index, const Scoped& scope) {
     const bool isList = kind(index) == Kind::tuple;
@@ -286,11 +305,13 @@ class Expander : Evaluator {
     if (hasBlock && name == "group") return copy(index + 2, scope);
     const std::size_t call = open(index);
     push(node(index + 1));
-    if (hasBlock || !isTransform(at(index)))
-      copy(index + 2, scope);
-    else
+    const bool transforms = !hasBlock && isTransform(at(index));
+    if (transforms)
       transform(index + 2, scope);
+    else
+      value(index + 2, scope);
     close(call);
+    if (transforms && !uses_.empty()) intoUse(call, name);
   }
   /// The brackets of a transform: a point or an axis among the numbers stands for its three.
   void transform(std::uint32_t tuple, const Scoped& scope) {
@@ -331,6 +352,7 @@ class Expander : Evaluator {
       const bool unwraps = (name == Material::kKeyword || name == "group") && kind(at + 2) == Kind::block;
       const Nested nested(calls_);
       if (calls_ > kMostCalls) tooDeep(use);
+      if (instances_ && isObjects(at, tree->scope)) return objects(*tree, unwraps ? at + 2 : at, use);
       copy(unwraps ? at + 2 : at, tree->scope);
     } else if (const List* list = value.list()) {
       const std::size_t tuple = open(likeness(use, Kind::tuple), use);
@@ -343,6 +365,91 @@ class Expander : Evaluator {
     }
   }
 
+  // --- objects that are used again ---
+
+  /// Objects that a name stands for.
+  struct Shared {
+    Scoped scope;                    ///< keeps the address that is its key
+    std::uint32_t root = 0;          ///< the first node that was made of it
+    std::size_t size = 0, made = 0;  ///< nodes of one, and of all
+    bool again = false;              ///< some use was not copied
+    std::map<std::uint32_t, Syntax::Root> copies{};
+  };
+
+  /// Is the node, which a name stands for, of objects?
+  bool isObjects(std::uint32_t index, const Scoped& scope) const {
+    if (kind(index) != Kind::call) return false;
+    const std::string_view name = wordAt(index + 1);
+    if (name == "group" || isTransform(at(index)) || findShapeType(name)) return true;
+    const Found found = findCalled(name, scope);
+    return found.binding && isDefinition(*found.binding);
+  }
+  /// Objects that a name stands for: copied as long as they are few, then as a node of the kind again.
+  void objects(const Tree& tree, std::uint32_t from, std::uint32_t use) {
+    Shared& shared = shared_[{tree.node, tree.scope.get()}];
+    const auto start = static_cast<std::uint32_t>(result_.size());
+    if (shared.size > 0 && shared.made + shared.size > kMostCopied) {
+      shared.again = true;
+      Node made = likeness(use, Kind::again);
+      made.number = static_cast<double>(uses_.size());
+      uses_.push_back({{}, shared.root});
+      push(made);
+      return;
+    }
+    copy(from, tree.scope);
+    Shared& now = shared_[{tree.node, tree.scope.get()}];
+    const std::size_t size = result_.size() - start;
+    if (size == 0) return;
+    if (now.size == 0) {
+      now.root = start;
+      now.size = size;
+      now.scope = tree.scope;
+    }
+    now.made += size;
+    now.copies.emplace(
+        start, Syntax::Root{now.root, node(use).offset, wordAt(kind(use) == Kind::call ? use + 1 : use)});
+    if (result_[start].kind == Kind::again) fixed_.insert(start);
+  }
+  /// Is the last node one that a transform around it may be made a part of?
+  bool endsWithUse(std::size_t index) const {
+    return index + 1 == result_.size() && result_[index].kind == Kind::again &&
+           !fixed_.contains(static_cast<std::uint32_t>(index));
+  }
+  /// Takes the place of nodes from there to the last, which is a use.
+  void foldUse(std::size_t index) {
+    Node use = result_.back();
+    result_.resize(index);
+    while (!frames_.empty() && frames_.back().first > index && frames_.back().end > 0) frames_.pop_back();
+    push(use);
+  }
+  /// A group of one use is that.
+  void unwrap(std::size_t group) {
+    if (!uses_.empty() && endsWithUse(group + 1)) foldUse(group);
+  }
+  /// A transform of one use is a part of it.
+  void intoUse(std::size_t call, std::string_view name) {
+    if (!endsWithUse(result_.size() - 1) || result_.size() < call + 4) return;
+    std::vector<Real> numbers;
+    for (std::size_t i = call + 3; i + 1 < result_.size(); ++i) {
+      if (result_[i].kind == Kind::number)
+        numbers.push_back(result_[i].number);
+      else if (result_[i].kind != Kind::tuple || name != "transform")
+        return;
+    }
+    const std::optional<Affine> own = transformOf(name, numbers, degrees_);
+    if (!own) return;
+    Affine& transform = uses_[static_cast<std::size_t>(result_.back().number)].transform;
+    transform = *own * transform;
+    foldUse(call);
+  }
+
+  /// Names of objects are copied up to so many nodes: a scene of few things is a plain list of them.
+  static constexpr std::size_t kMostCopied = 10'000;
+
+  const bool instances_;
+  std::map<std::pair<std::uint32_t, const Scope*>, Shared> shared_;
+  std::vector<Syntax::Use> uses_;
+  std::set<std::uint32_t> fixed_;  ///< uses that are placed again themselves
   std::set<std::string_view> textureWords_;
   std::map<std::uint32_t, std::size_t> turns_;  ///< turns made by each loop that was reached
   int depth_ = 0;
@@ -350,8 +457,8 @@ class Expander : Evaluator {
 
 }  // namespace
 
-void expand(Syntax& syntax, SceneTime& time, InputFiles& inputs) {
-  if (syntax.usesLanguage()) Expander(syntax, time, inputs).expand();
+void expand(Syntax& syntax, SceneTime& time, InputFiles& inputs, bool instances) {
+  if (syntax.usesLanguage()) Expander(syntax, time, inputs, instances).expand();
 }
 
 std::vector<FunctionHelp> functionsOfLanguage() {

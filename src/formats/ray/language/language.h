@@ -27,7 +27,8 @@ inline constexpr int kMostCalls = 200;
 /// included. Throws Error(Fault::scene) with the place and the calls and loops around it, Error(Fault::io)
 /// for a file that cannot be included, and Error(Fault::limit) for more than the above. Free where the file
 /// uses nothing of the language.
-void expand(Syntax& syntax, SceneTime& time, InputFiles& inputs);
+/// With `instances`, a name of objects that is used often leaves nodes of the kind again.
+void expand(Syntax& syntax, SceneTime& time, InputFiles& inputs, bool instances = false);
 
 /// The tree of which the reader makes a scene: that at `time`, expanded, with values in the place of keys.
 void settle(Syntax& syntax, SceneTime& time, InputFiles& inputs);

@@ -16,6 +16,7 @@
 #include "geometry/shapes/cone.h"
 #include "geometry/shapes/julia.h"
 #include "geometry/shapes/plane.h"
+#include "scene/groups.h"
 #include "scene/particles.h"
 #include "scene/rows.h"
 #include "shading/cameras/camera.h"
@@ -45,8 +46,24 @@ bool isListOfObjects(const Item& item) {
 
 }  // namespace
 
-void ObjectReader::object(Item item, Affine worldFromObject) {
-  while (isTransform(item)) {
+void ObjectReader::object(Item item, Affine worldFromObject) { object(item, worldFromObject, true); }
+
+void ObjectReader::object(Item item, Affine worldFromObject, bool mayPlace) {
+  for (;;) {
+    if (const Syntax::Root* root = mayPlace ? syntax_.rootAt(item.index()) : nullptr;
+        root && place(*root, worldFromObject))
+      return;
+    mayPlace = true;
+    if (item.is(Kind::again)) {
+      const Syntax::Use& use = syntax_.uses()[static_cast<std::size_t>(item.number())];
+      worldFromObject = worldFromObject * use.transform;
+      const Syntax::Root* first = syntax_.rootAt(use.root);
+      const Syntax::Root root{use.root, static_cast<std::uint32_t>(item.offset()),
+                              first ? first->name : std::string_view()};
+      if (!place(root, worldFromObject)) object({syntax_, use.root}, worldFromObject, false);
+      return;
+    }
+    if (!isTransform(item)) break;
     const std::optional<Item> child = applyTransform(findings_, item, worldFromObject);
     if (!child) return;
     item = *child;
@@ -58,6 +75,72 @@ void ObjectReader::object(Item item, Affine worldFromObject) {
   else
     otherNode(item, worldFromObject);
 }
+
+bool ObjectReader::place(const Syntax::Root& root, const Affine& worldFromObject) {
+  if (solids_ > 0) return false;
+  const Prototype& prototype = prototypeOf(root);
+  if (prototype.isCopied) return false;
+  if (!invertible(worldFromObject)) {
+    findings_.warn(Item(syntax_, root.root),
+                   "objects are left out: their transform makes them flat, or infinitely large or small");
+    return true;
+  }
+  for (const Object& one : prototype.alone) {
+    scene_.objects.push_back(one);
+    scene_.objects.back().worldFromObject = worldFromObject * one.worldFromObject;
+  }
+  if (prototype.group) uses_[*prototype.group].push_back({worldFromObject, usePlace(root.offset)});
+  return true;
+}
+
+const ObjectReader::Prototype& ObjectReader::prototypeOf(const Syntax::Root& root) {
+  const std::uint32_t material = materials_.index(materials_.current);
+  const auto [found, isNew] = prototypes_.try_emplace({root.root, material});
+  Prototype& prototype = found->second;
+  if (!isNew) return prototype;
+  std::vector<Object> objects = std::exchange(scene_.objects, {});
+  Uses uses = std::exchange(uses_, {});
+  const std::size_t lights = scene_.lights.size();
+  prototype.isCopied = true;  // in itself
+  object({syntax_, root.root}, {}, false);
+  objects.swap(scene_.objects);
+  uses.swap(uses_);
+  Group group{std::string(root.name), syntax_.shortPlace(syntax_.nodes()[root.root].offset), {}, {}};
+  for (const auto& [number, list] : uses)
+    for (const auto& [key, other] : prototypes_)
+      if (other.group == number) prototype.levels = std::max(prototype.levels, other.levels);
+  ++prototype.levels;
+  prototype.isCopied = scene_.lights.size() != lights || prototype.levels > kMostGroupLevels;
+  if (prototype.isCopied) {
+    scene_.lights.resize(lights);
+    return prototype;
+  }
+  for (Object& one : objects)
+    (standsAlone(scene_, one) ? prototype.alone : group.objects).push_back(std::move(one));
+  group.uses = shared(std::move(uses));
+  if (group.objects.empty() && group.uses.empty()) return prototype;
+  prototype.group = static_cast<std::uint32_t>(scene_.groups.size());
+  scene_.groups.push_back(std::move(group));
+  return prototype;
+}
+
+std::uint32_t ObjectReader::usePlace(std::uint32_t offset) {
+  const auto [found, isNew] =
+      usePlaces_.try_emplace(offset, static_cast<std::uint32_t>(scene_.usePlaces.size()));
+  if (isNew) scene_.usePlaces.push_back(syntax_.shortPlace(offset));
+  return found->second;
+}
+
+std::vector<GroupUses> ObjectReader::shared(Uses uses) {
+  std::vector<GroupUses> all;
+  for (auto& [group, list] : uses) {
+    list.shrink_to_fit();
+    all.push_back({group, std::make_shared<const GroupUses::List>(std::move(list))});
+  }
+  return all;
+}
+
+void ObjectReader::finish() { scene_.uses = shared(std::exchange(uses_, {})); }
 
 void ObjectReader::group(const Item& block, const Affine& worldFromObject) {
   const NestedSolid nested(*this, block, solids_ > 0);
@@ -209,7 +292,7 @@ bool ObjectReader::readMaterials(Shape& shape, const Item& item, const NotedMate
 }
 
 bool ObjectReader::isObject(const Item& item) {
-  if (item.is(Kind::block) || isTransform(item)) return true;
+  if (item.is(Kind::block) || item.is(Kind::again) || isTransform(item)) return true;
   return item.is(Kind::call) && findShapeType(canonical(item.key()));
 }
 

@@ -1,8 +1,11 @@
 // The objects of .ray files: shapes in their transforms and groups, solids of solids, particles.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/nesting.h"
@@ -14,7 +17,7 @@
 #include "formats/scene_time.h"
 #include "geometry/shapes/csg_tree.h"
 #include "math/transform.h"
-#include "scene/scene.h"
+#include "scene/groups.h"
 
 namespace trace::rayfile {
 
@@ -37,6 +40,8 @@ class ObjectReader {
   void object(Item item, Affine worldFromObject);
   /// `material { name = ...; }`
   void namedMaterial(const Item& call);
+  /// Gives the scene the placements of its groups. Call it once, after all objects.
+  void finish();
 
  private:
   /// One level more of solids in solids, if `counts`. Converts to false, after a report, where it is one too
@@ -55,6 +60,22 @@ class ObjectReader {
     ObjectReader& reader_;
     const bool counts_;
   };
+
+  /// Placements of groups in the scene or in the group that is being read, by group.
+  using Uses = std::map<std::uint32_t, GroupUses::List>;
+  /// The result of a name of objects under one material.
+  struct Prototype {
+    bool isCopied = false;                 ///< it cannot be placed
+    std::optional<std::uint32_t> group{};  ///< nothing where all objects stand alone
+    std::vector<Object> alone{};
+    int levels = 0;
+  };
+  /// Objects that are placed again. Returns false if they are to be copied.
+  bool place(const Syntax::Root& root, const Affine& worldFromObject);
+  const Prototype& prototypeOf(const Syntax::Root& root);
+  std::uint32_t usePlace(std::uint32_t offset);
+  static std::vector<GroupUses> shared(Uses uses);
+  void object(Item item, Affine worldFromObject, bool mayPlace);
 
   /// Materials set in a group hold up to its end.
   void group(const Item& block, const Affine& worldFromObject);
@@ -89,6 +110,9 @@ class ObjectReader {
   Materials& materials_;
   MeshFiles meshFiles_;
   SharedMeshes sharedMeshes_;
+  Uses uses_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Prototype> prototypes_;  ///< by root and material
+  std::map<std::uint32_t, std::uint32_t> usePlaces_;                         ///< by offset
   int solids_ = 0;  ///< how many solids or particles what is read is nested in
 };
 

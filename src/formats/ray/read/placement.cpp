@@ -96,6 +96,20 @@ std::optional<Affine> matrix(Findings& findings, std::span<const Item> rows) {
 
 }  // namespace
 
+std::optional<Affine> transformOf(std::string_view name, std::span<const Real> n, bool degrees) {
+  if (name == "translate" && n.size() == 3) return Affine::translation({n[0], n[1], n[2]});
+  if (name == "scale" && n.size() == 1) return Affine::scaling({n[0], n[0], n[0]});
+  if (name == "scale" && n.size() == 3) return Affine::scaling({n[0], n[1], n[2]});
+  if (name == "rotate" && n.size() == 4) {
+    const Real length = std::hypot(n[0], n[1], n[2]);
+    if (!(length > 0 && std::isfinite(length))) return {};
+    return Affine::rotation(Vec3{n[0], n[1], n[2]} / length, degrees ? n[3] * (kPi / 180) : n[3]);
+  }
+  if (name == "transform" && n.size() == 16 && n[12] == 0 && n[13] == 0 && n[14] == 0 && n[15] == 1)
+    return Affine{{{n[0], n[1], n[2]}, {n[4], n[5], n[6]}, {n[8], n[9], n[10]}}, {n[3], n[7], n[11]}};
+  return {};
+}
+
 bool isTransform(const Item& item) { return findTransform(item) != nullptr; }
 
 void addTransformWords(std::vector<std::string_view>& words) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,6 +12,10 @@
 #include "math/transform.h"
 
 namespace trace::rayfile {
+
+/// The transform of that name with these numbers, those of a matrix row by row. Nothing where they are not of
+/// its form. Angles are in degrees if so said.
+std::optional<Affine> transformOf(std::string_view name, std::span<const Real> numbers, bool degrees);
 
 bool isTransform(const Item& item);
 void addTransformWords(std::vector<std::string_view>& words);

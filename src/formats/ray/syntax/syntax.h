@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "math/transform.h"
 
 namespace trace::rayfile {
 
@@ -38,6 +40,8 @@ enum class Kind : std::uint8_t {
   loop,        ///< name, what it runs through, block
   branch,      ///< condition, block, and for `else` a block or branch
   include,     ///< the name of a file
+  // expand() makes these of a name of objects that is used often:
+  again,  ///< objects that are a node of the tree already: `number` is an index into Syntax::uses()
 };
 
 enum class Op : std::uint8_t {
@@ -139,6 +143,28 @@ class Syntax {
   };
   /// Sorted by `first`; they nest.
   void setFrames(std::vector<Frame> frames) { frames_ = std::move(frames); }
+  /// Objects that are placed once more.
+  struct Use {
+    Affine transform{};      ///< transform of the objects
+    std::uint32_t root = 0;  ///< the node that has them
+  };
+  /// A node that stands in the tree and is placed more often: the first one, or a copy of it.
+  struct Root {
+    std::uint32_t root = 0;
+    std::uint32_t offset = 0;  ///< offset of the name that placed it
+    std::string_view name{};
+  };
+  const std::vector<Use>& uses() const { return uses_; }
+  /// Null if the node is none.
+  const Root* rootAt(std::uint32_t node) const {
+    if (roots_.empty()) return nullptr;
+    const auto found = roots_.find(node);
+    return found == roots_.end() ? nullptr : &found->second;
+  }
+  void setUses(std::vector<Use> uses, std::map<std::uint32_t, Root> roots) {
+    uses_ = std::move(uses);
+    roots_ = std::move(roots);
+  }
   /// The calls and rounds that made the node, the innermost first: "in gear(teeth = 12) at line 7, ..."; ""
   /// if the file has it itself.
   std::string chain(std::uint32_t node) const;
@@ -174,6 +200,8 @@ class Syntax {
   std::vector<Node> nodes_;
   std::deque<std::string> spelled_;
   std::vector<Frame> frames_;
+  std::vector<Use> uses_;
+  std::map<std::uint32_t, Root> roots_;
   std::vector<Remark> remarks_;
   bool hasKeys_ = false, usesLanguage_ = false;
 };

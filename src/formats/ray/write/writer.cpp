@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "formats/picture_files.h"
@@ -53,6 +54,7 @@ class Writer {
     writeCamera();
     writeBackground();
     for (const LightSource& light : scene_.lights) writeLight(light.light, light.links);
+    writeGroups();
     for (const Object& object : scene_.objects) writeObject(object);
     writeUnrendered();
     return std::move(out_);
@@ -179,7 +181,7 @@ class Writer {
     }
     const Material& material = scene_.materials.at(index);
     const auto given = newNames_.find(index);
-    const std::string& name = given == newNames_.end() ? material.name : given->second;
+    const std::string name = inGroup_ ? "" : given == newNames_.end() ? material.name : given->second;
     if (!name.empty()) {
       const auto [named, fresh] = named_.try_emplace(name, index);
       if (!fresh && named->second == index) {
@@ -250,6 +252,45 @@ class Writer {
     return keyword == "reflective" && !phong.mirrorsSpecular && saidSpecular;
   }
 
+  // --- groups ---
+
+  /// Each as a named group, then its placements. The groups are read where they are placed first, so that in
+  /// them no name stands for a material or mesh of the text before.
+  void writeGroups() {
+    std::set<std::string> taken;
+    for (const Group& group : scene_.groups) {
+      std::string name = "group";
+      name += std::to_string(groupNames_.size() + 1);
+      if (isName(group.name) && taken.insert(group.name).second) name = group.name;
+      groupNames_.push_back(name);
+    }
+    inGroup_ = true;
+    for (std::size_t i = 0; i < scene_.groups.size(); ++i) {
+      out_ += "let " + groupNames_[i] + " = group {\n";
+      for (const Object& object : scene_.groups[i].objects) writeObject(object);
+      writeUses(scene_.groups[i].uses);
+      out_ += "}\n\n";
+    }
+    inGroup_ = false;
+    writeUses(scene_.uses);
+  }
+  void writeUses(const std::vector<GroupUses>& all) {
+    for (const GroupUses& uses : all)
+      for (const GroupUse& use : *uses.list) {
+        checkBudget();
+        const std::vector<TransformStep> steps = stepsOf(use.outFromGroup);
+        for (const TransformStep& step : steps) out_ += head(step, digits_);
+        out_ += groupNames_[uses.group] + std::string(steps.size(), ')') + "\n";
+      }
+    if (!all.empty()) out_ += "\n";
+  }
+  /// A name of the language that means nothing else.
+  static bool isName(const std::string& name) {
+    const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    const auto isPart = [&](char c) { return isLetter(c) || (c >= '0' && c <= '9'); };
+    return !name.empty() && isLetter(name.front()) && std::all_of(name.begin(), name.end(), isPart);
+  }
+
   // --- objects ---
 
   void writeObject(const Object& object) {
@@ -302,7 +343,7 @@ class Writer {
   void writeMesh(const Object& object, const MeshData& mesh) {
     out_ += std::string(Mesh::kKeyword) + " {\n";
     writeNames(object);
-    if (uses_.at(&mesh) > 1) {
+    if (!inGroup_ && uses_.at(&mesh) > 1) {
       const auto [number, fresh] = shared_.try_emplace(&mesh, shared_.size());
       out_ += "  shared = " + std::to_string(number->second) + ";\n";
       if (!fresh) return writeOwnMaterial(object);
@@ -353,8 +394,10 @@ class Writer {
   const Scene& scene_;
   int digits_;
   MaterialText materialText_;  ///< says materials in another way, if there is one
-  bool inWhole_ = false;       ///< what is written is an operand
-  bool hasModels_ = false;     ///< some material is not Phong's: an operand may inherit its model
+  bool inGroup_ = false;
+  std::vector<std::string> groupNames_;
+  bool inWhole_ = false;    ///< what is written is an operand
+  bool hasModels_ = false;  ///< some material is not Phong's: an operand may inherit its model
   std::string out_;
   std::map<const MeshData*, std::size_t> uses_,
       shared_;  ///< how many objects have a mesh; its number in the file
