@@ -14,7 +14,8 @@ namespace trace::pov {
 namespace {
 
 /// Debian's package povray-includes.
-constexpr const char* kLibrary[]{"/usr/share/povray-3.7/include", "/usr/share/povray/include"};
+constexpr const char* kLibrary[]{"/usr/share/povray-3.7/include", "/usr/share/povray/include",
+                                 "/usr/share/fonts/truetype/povray"};
 
 bool opensBlock(std::string_view d) {
   return d == "if" || d == "ifdef" || d == "ifndef" || d == "while" || d == "for" || d == "switch" ||
@@ -72,6 +73,10 @@ void Reader::expected(std::string_view what, const std::string& hint) {
 }
 
 void Reader::leaveOut(const Token& at, const std::string& what, const std::string& hint) {
+  if (left_) {  // a part of a texture: told where it is used
+    left_->emplace_back(what + " is left out", place(at));
+    return;
+  }
   if (!warnings_.again(what + " is left out")) warnings_.warn(place(at), what + " is left out", hint);
 }
 
@@ -92,6 +97,7 @@ const Token& Reader::peek() {
 Token Reader::next() {
   if (!hasAhead_) fetch();
   hasAhead_ = false;
+  stop_.begun = true;
   if (ahead_.is(Token::Kind::mark)) {
     const char c = ahead_.text[0];
     if (c == '{' || c == '(' || c == '[') ++nest_;
@@ -119,7 +125,7 @@ void Reader::fetch() {
     const Token& token = frame.source->tokens[frame.at];
     spend(token);
     if (token.is(Token::Kind::directive)) {
-      if (stop_.active && stop_.frames == frames_.size() && stop_.nest == nest_) {
+      if (stop_.active && stop_.begun && stop_.frames == frames_.size() && stop_.nest == nest_) {
         ahead_ = token;
         hasAhead_ = true;
         return;
@@ -195,7 +201,7 @@ Slot* Reader::find(std::string_view name) {
 template <class Body>
 auto Reader::untilDirective(Body&& body) {
   const Stop before = stop_;
-  stop_ = {true, nest_, frames_.size()};
+  stop_ = {true, nest_, frames_.size(), false};
   struct Restore {
     Reader& reader;
     Stop from;
@@ -633,6 +639,29 @@ void Reader::include(const Token& at) {
   const std::size_t scopes = scopes_.size();
   scopes_.emplace_back();
   frames_.push_back({source, 0, source->tokens.size() - 1, blocks_.size(), scopes, false});
+}
+
+/// The bytes of a picture or font: beside the file that names it, or in the library.
+std::string Reader::readNamed(const Token& at, const std::string& name) {
+  const std::string& from = at.source->file;
+  for (const std::string& beside : {from, file_})
+    if (namesFile(beside, name)) try {
+        return readBeside(beside, name, inputs_);
+      } catch (const ReadDenied& denied) {
+        denied.at(place(at));
+      }
+  if (name.find_first_of("/\\") == std::string::npos && name != "..")
+    for (const char* folder : kLibrary) {
+      const std::string candidate = std::string(folder) + "/" + name;
+      if (!isOrdinaryFile(candidate)) continue;
+      const ReadScope library(std::vector<std::string>(std::begin(kLibrary), std::end(kLibrary)));
+      checkMayRead(candidate);
+      std::string bytes = readFile(candidate);
+      inputs_.noteRead(candidate, bytes);
+      return bytes;
+    }
+  throw Error(Fault::io, place(at),
+              "\"" + name + "\" is neither beside the file nor in the library of POV-Ray");
 }
 
 void Reader::setDefault() {

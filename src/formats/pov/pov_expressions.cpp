@@ -666,7 +666,7 @@ Value Reader::arrayValue() {
     auto array = std::make_shared<Array>();
     if (takesMark("{")) {
       while (!peek().isMark("}")) {
-        array->elements.push_back(std::make_shared<Value>(anyValue()));
+        array->elements.push_back(std::make_shared<Value>(anyValue(false)));
         comma();
       }
       next();
@@ -683,7 +683,7 @@ Value Reader::arrayValue() {
       if (level + 1 < sizes.size())
         self(self, **to.elements[i]->as<std::shared_ptr<Array>>(), level + 1);
       else
-        to.elements[i] = std::make_shared<Value>(anyValue());
+        to.elements[i] = std::make_shared<Value>(anyValue(false));
       ++i;
       comma();
     }
@@ -724,7 +724,7 @@ std::shared_ptr<SplineCurve> Reader::spline() {
   return curve;
 }
 
-Value Reader::anyValue() {
+Value Reader::anyValue(bool compares) {
   const Token t = peek();
   if (t.is(Token::Kind::name) && !valueOf(t)) {
     const std::string_view w = t.text;
@@ -768,12 +768,12 @@ Value Reader::anyValue() {
         return !v.as<Numbers>() && !v.as<Ref<Formula>>() && !v.as<std::shared_ptr<SplineCurve>>();
       };
       if (valueOf(t)->as<std::shared_ptr<Array>>()) {
-        // An element may be a number, with which an expression goes on.
+        // An element may be a number, where an expression begins.
         const Token name = next();
         const Slot slot = namedSlot(name);
         if (!slot) fail(name, "\"" + std::string(name.text) + "\" has no value");
         if (const auto* n = slot->as<Numbers>()) {
-          const Numbers value = binary(0, postfix(*n), true);
+          const Numbers value = binary(compares ? 0 : 3, postfix(*n), compares);
           if (!peek().isMark("?")) return Value{value};
           next();
           const Numbers a = expression(true);
@@ -804,10 +804,10 @@ Value Reader::anyValue() {
     }
     if (isColorWord(t.text)) {
       const Numbers c = color();
-      return Value{binary(0, c, true)};
+      return Value{binary(compares ? 0 : 3, c, compares)};
     }
   }
-  return Value{expression(true)};
+  return Value{expression(compares)};
 }
 
 }  // namespace trace::pov

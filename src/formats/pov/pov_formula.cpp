@@ -90,8 +90,8 @@ Real nextRandom(std::uint64_t& seed) {
 }
 
 Real noiseAt(const Vec3& p) {
-  constexpr Real kSpread = 0.6;
-  return std::clamp(0.5 + kSpread * gradientNoise<3>({p.x, p.y, p.z}, 7), 0.0, 1.0);
+  constexpr Real kSpread = 0.48;
+  return std::clamp(0.53 + kSpread * gradientNoise<3>({p.x, p.y, p.z}, 7), 0.0, 1.0);
 }
 
 Vec3 noiseVectorAt(const Vec3& p) {
@@ -168,6 +168,30 @@ std::optional<Real> Formula::at(const Real* arguments, int count, int depth) con
   }
   if (values.empty() || !std::isfinite(values.back())) return {};
   return values.back();
+}
+
+Ref<PigmentNode> Formula::onlyPigment() const {
+  if (pigment) return pigment;
+  Ref<PigmentNode> only;
+  for (const Step& s : steps)
+    if (s.user && s.user->pigment) {
+      if (only && only != s.user->pigment) return nullptr;
+      only = s.user->pigment;
+    }
+  return only;
+}
+
+Real Formula::ofColor(const Numbers& c) const {
+  const Real grey = 0.297 * c[0] + 0.589 * c[1] + 0.114 * c[2];
+  if (pigment) return grey;
+  Formula plain = *this;
+  for (Step& s : plain.steps)
+    if (s.user && s.user->pigment) {
+      s.number = s.index == 5 ? grey : c[s.index];
+      s.kind = Step::Kind::number;
+    }
+  constexpr Real kNowhere[3] = {};
+  return plain.at(kNowhere, 3).value_or(0);
 }
 
 std::optional<std::string> Formula::text(const std::vector<std::string>& arguments, int depth) const {
@@ -429,7 +453,14 @@ Formula::Part Reader::formulaPrimary(std::vector<Formula::Step>& steps,
     if (user && step.inputs.size() < (*user)->parameters.size())
       fail(t, std::string(t.text) + "() has " + std::to_string((*user)->parameters.size()) + " parameters");
     // A component of a function of a pigment may follow.
-    if (takesMark(".")) next();
+    if (takesMark(".")) {
+      const Token part = next();
+      constexpr std::string_view kParts[]{"x", "y", "z", "filter", "transmit"},
+          kColors[]{"red", "green", "blue", "f", "t"};
+      for (int i = 0; i < 5; ++i)
+        if (part.text == kParts[i] || part.text == kColors[i]) step.index = i;
+      if (part.isName("gray") || part.isName("grey")) step.index = 5;
+    }
     return add(std::move(step));
   }
   return add({.kind = Formula::Step::Kind::number, .number = postfix(primary())[0]});

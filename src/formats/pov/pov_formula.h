@@ -25,7 +25,7 @@ struct Formula {
     enum class Kind : std::uint8_t { number, parameter, operation, call, user, spline };
     Kind kind = Kind::number;
     Real number = 0;
-    int index = 0;         ///< of a parameter
+    int index = 0;         ///< number of a parameter
     char operation = '+';  ///< + - * / n for negation < > = and so on
     const NumberFunction* function = nullptr;
     Ref<Formula> user{};
@@ -42,6 +42,11 @@ struct Formula {
 
   /// Nothing where it has no value, or where it cannot be evaluated.
   std::optional<Real> at(const Real* arguments, int count, int depth = 0) const;
+
+  /// The pigment whose colours it is made of, if there is one and it alone.
+  Ref<PigmentNode> onlyPigment() const;
+  /// Its value where that pigment has the colour.
+  Real ofColor(const Numbers& c) const;
 
   /// As a formula of Trace in x, y, z, with those texts in place of the parameters; nothing where it uses
   /// more than Trace's formulas know.

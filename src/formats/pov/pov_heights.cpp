@@ -34,7 +34,7 @@ void Reader::heightField(Node& node, const Token& at) {
   }
   if (node.kind == Node::Kind::nothing) return;
   try {
-    const std::string bytes = readBeside(at.source->file, file, inputs_);
+    const std::string bytes = readNamed(at, file);
     const Picture picture = decodePicture(bytes, file);
     if (std::min(picture.width, picture.height) < 2 || std::max(picture.width, picture.height) > kMostSide) {
       node.kind = Node::Kind::nothing;

@@ -14,6 +14,9 @@
 
 namespace trace::pov {
 
+/// Omissions that are reported where something is used, with the place that says it.
+using Omissions = std::vector<std::pair<std::string, Place>>;
+
 /// A picture that a pattern or a height field names.
 struct ImageNode {
   std::string file;
@@ -45,10 +48,11 @@ using Entries = std::vector<std::pair<Real, Ref<T>>>;
 struct PigmentNode {
   Numbers color = Numbers().promoted(5);
   std::optional<PatternNode> pattern;
-  Entries<PigmentNode> entries;  ///< of a map, or of a list in its order
+  Entries<PigmentNode> entries;  ///< entries of a map, or of a list in its order
   Affine at;                     ///< outside from inside
   bool uv = false;
   Place place;
+  Omissions left;
 };
 
 struct NormalNode {
@@ -56,6 +60,7 @@ struct NormalNode {
   Real amount = 0.5;
   Affine at;
   Place place;
+  Omissions left;
 };
 
 struct FinishNode {
@@ -63,6 +68,7 @@ struct FinishNode {
   Real diffuse = 0.6, brilliance = 1, phong = 0, phongSize = 40, specular = 0, roughness = 0.05, metallic = 0;
   Color reflectionLeast{}, reflectionMost{};
   bool fresnel = false, reflectsMetal = false;
+  Omissions left;
 };
 
 struct TextureNode {
@@ -70,7 +76,7 @@ struct TextureNode {
     Ref<PigmentNode> pigment;
     Ref<NormalNode> normal;
     Ref<FinishNode> finish;
-    std::optional<PatternNode> pattern;  ///< of a texture map
+    std::optional<PatternNode> pattern;  ///< pattern of a texture map
     Entries<TextureNode> entries;
     Affine at;
   };
@@ -88,6 +94,7 @@ struct InteriorNode {
   Real ior = 1, fadeDistance = 0, fadePower = 0;
   Color fadeColor{};
   std::vector<MediaNode> media;
+  Omissions left;
 };
 
 struct MaterialNode {
@@ -124,7 +131,7 @@ struct Node {
   Ref<TextureNode> texture;                    ///< null: the one around it, or the default
   Affine textureAt;                            ///< object from texture
   Ref<InteriorNode> interior;
-  bool inverse = false, splitUnion = true, uv = false;
+  bool inverse = false, uv = false;
 };
 
 struct CameraNode {

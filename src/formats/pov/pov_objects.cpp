@@ -71,6 +71,9 @@ void Reader::statement() {
   if (w == "camera") {
     next();
     world_.camera = camera();
+  } else if (w == "default") {  // as some scenes write it
+    next();
+    setDefault();
   } else if (w == "global_settings") {
     next();
     globalSettings();
@@ -137,7 +140,7 @@ std::shared_ptr<Node> Reader::object() {
     } else if (startsObject()) {
       node = object();
     } else if (!peek().isMark("}")) {
-      // What Trace leaves out may have been declared.
+      // The name may stand for something that Trace leaves out.
       fail(name, "expected an object, found " + describe(name));
     }
     node->place = place(t);
@@ -425,7 +428,7 @@ bool Reader::modifier(Node& node) {
     flag();
   } else if (w == "no_shadow" || w == "no_image" || w == "no_reflection" || w == "no_radiosity") {
     next();
-    if (flag() && w != "no_radiosity") leaveOut(t, std::string(w), "light of the object's shadow stays dark");
+    if (flag() && w != "no_radiosity") leaveOut(t, std::string(w));
   } else if (w == "inverse") {
     next();
     node.inverse = !node.inverse;

@@ -184,7 +184,7 @@ Paint mixed(const Paint& a, const Paint& b, const Texture& amount) {
   return {Color(1), Texture(trace::TextureNode{.model = mix, .inputs = inputs})};
 }
 
-Paint sum(const Paint& a, const Paint& b) {
+Paint added(const Paint& a, const Paint& b) {
   if (a.none()) return b;
   if (b.none()) return a;
   if (!a.texture && !b.texture) return {a.scale + b.scale, {}};
@@ -253,7 +253,9 @@ Texture moved(const Texture& texture, const Affine& m) {
 
 bool Painter::knows(const PatternNode& p, const Place& place) {
   if (solidOf(p.kind) || p.kind == "average") return true;
+  if (p.kind == "pigment_pattern" && p.pigment) return true;
   if (p.kind == "function" && p.formula) {
+    if (p.formula->onlyPigment()) return true;
     if (const auto text = p.formula->text({"x", "y", "z"})) try {
         Expression check(*text, Expression::Variables::xyzuv);
         return true;
@@ -268,6 +270,21 @@ bool Painter::knows(const PatternNode& p, const Place& place) {
 
 /// A texture whose luminance is the pattern's number.
 Texture Painter::numberOf(const PatternNode& p, const Place&, bool) {
+  Paint grey;
+  if (p.kind == "pigment_pattern") {
+    grey = paint(*p.pigment, [](const Numbers& c) {
+      return Color(std::max(0.297 * c[0] + 0.589 * c[1] + 0.114 * c[2], 0.0));
+    });
+  } else if (p.kind == "function" && p.formula && p.formula->onlyPigment()) {
+    grey = paint(*p.formula->onlyPigment(),
+                 [&](const Numbers& c) { return Color(std::max(p.formula->ofColor(c), 0.0)); });
+  }
+  if (p.kind == "pigment_pattern" || (p.kind == "function" && p.formula && p.formula->onlyPigment())) {
+    Mix mix{.a = grey.scale, .b = Color(0), .amount = 0};
+    std::vector<FieldTexture> inputs;
+    if (grey.texture) inputs.push_back({"a", *grey.texture});
+    return trace::TextureNode{.model = mix, .inputs = inputs};
+  }
   if (p.kind == "function" && p.formula) {
     trace::Formula f;
     f.value = FormulaText(*p.formula->text({"x", "y", "z"}));
@@ -280,7 +297,13 @@ Texture Painter::numberOf(const PatternNode& p, const Place&, bool) {
   return trace::TextureNode{.model = s};
 }
 
+void Painter::tell(const Omissions& left) {
+  for (const auto& [what, place] : left)
+    if (!warnings_.again(what)) warnings_.warn(place, what);
+}
+
 Paint Painter::paint(const PigmentNode& p, const Leaf& leaf, bool uv) {
+  tell(p.left);
   if (!p.pattern) return {leaf(p.color), {}};
   const PatternNode& pattern = *p.pattern;
   if (!knows(pattern, p.place)) {
@@ -293,11 +316,16 @@ Paint Painter::paint(const PigmentNode& p, const Leaf& leaf, bool uv) {
     map.file = {pattern.image.file, nullptr, p.place};
     map.srgb = true;
     if (!uv && !p.uv) {
-      const std::string what = "a picture on an object without uv_mapping";
-      if (!warnings_.again(what + " is left out"))
-        warnings_.warn(p.place, what + " is left out",
-                       "it is placed by the texture coordinates of the shape");
+      map.mapping = pattern.image.mapType == 1   ? Mapping::sphere
+                    : pattern.image.mapType == 2 ? Mapping::cylinder
+                                                 : Mapping::plane;
+      if (pattern.image.mapType > 2) {
+        const std::string what =
+            "a picture with map_type " + std::to_string(pattern.image.mapType) + " is left out";
+        if (!warnings_.again(what)) warnings_.warn(p.place, what, "it is laid on flat");
+      }
     }
+    if (pattern.image.once) map.wrapU = map.wrapV = Wrap::clamp;
     Numbers white = Numbers(Vec3{1, 1, 1}).promoted(5);
     white[3] = pattern.image.filterAll;
     white[4] = pattern.image.transmitAll;
@@ -311,7 +339,7 @@ Paint Painter::paint(const PigmentNode& p, const Leaf& leaf, bool uv) {
       if (!(weight > 0)) continue;
       Paint part = paint(*one, leaf, uv);
       part.scale = part.scale * weight;
-      all = sum(all, part);
+      all = added(all, part);
       total += weight;
     }
     if (total > 0) all.scale = all.scale / total;
@@ -335,7 +363,13 @@ Paint Painter::paint(const PigmentNode& p, const Leaf& leaf, bool uv) {
       const Color& c = paints[i].scale;
       ramp.push_back({entries[i].first, c.r, c.g, c.b});
     }
-    if (pattern.kind == "function") {
+    if (pattern.kind == "pigment_pattern" || (pattern.formula && pattern.formula->onlyPigment())) {
+      Ramp r;
+      r.value = 1;
+      r.ramp = ramp;
+      all = {Color(1),
+             Texture(trace::TextureNode{.model = r, .inputs = {{"value", numberOf(pattern, p.place, uv)}}})};
+    } else if (pattern.kind == "function") {
       trace::Formula f;
       f.value = FormulaText(*pattern.formula->text({"x", "y", "z"}));
       f.ramp = ramp;
@@ -362,11 +396,13 @@ Color rgb(const Numbers& c) { return {c[0], c[1], c[2]}; }
 Real shown(const Numbers& c) { return std::clamp(1 - c[3] - c[4], 0.0, 1.0); }
 Color notBelowZero(const Color& c) { return {std::max(c.r, 0.0), std::max(c.g, 0.0), std::max(c.b, 0.0)}; }
 
-/// What a bump's number is multiplied by, so that it bends as much as in POV-Ray.
+/// The factor on a bump that makes it as strong as in POV-Ray.
 Real reliefOf(const std::string& kind) {
-  if (kind == "bumps" || kind == "dents" || kind == "wrinkles" || kind == "waves" || kind == "ripples")
-    return 0.3;
-  return 0.13;
+  constexpr Real kGradient = 0.135;
+  if (kind == "bumps") return 0.7;
+  if (kind == "waves") return 1;
+  if (kind == "ripples") return 0.45;
+  return kGradient;
 }
 
 }  // namespace
@@ -400,6 +436,8 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
     static const FinishNode kUsual;
     const PigmentNode& p = layer.pigment ? *layer.pigment : kBlack;
     const FinishNode& f = layer.finish ? *layer.finish : kUsual;
+    tell(f.left);
+    if (layer.normal) tell(layer.normal->left);
     l.diffuse = paint(
         p, [&](const Numbers& c) { return notBelowZero(rgb(c) * (shown(c) * f.diffuse)); }, uv);
     l.ambient = paint(
@@ -456,7 +494,7 @@ Painter::Look Painter::look(const TextureNode& texture, bool uv) {
     const Look top = look(texture.layers[i], uv);
     for (Paint Look::*field :
          {&Look::diffuse, &Look::ambient, &Look::emissive, &Look::specular, &Look::reflective})
-      l.*field = sum(top.*field, product(l.*field, top.transmissive));
+      l.*field = added(top.*field, product(l.*field, top.transmissive));
     l.transmissive = product(l.transmissive, top.transmissive);
     if (top.shininess > 0) l.shininess = top.shininess;
     if (top.relief) l.relief = top.relief, l.bump = top.bump;
@@ -468,6 +506,7 @@ Painter::Look Painter::look(const TextureNode& texture, bool uv) {
 Material Painter::material(const TextureNode& texture, const InteriorNode* interior,
                            const Affine& objectFromTexture, bool uv) {
   const Look l = look(texture, uv);
+  if (interior) tell(interior->left);
   Material m;
   m.sides = ShadedSides::both;
   Phong phong;

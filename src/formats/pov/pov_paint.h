@@ -31,6 +31,7 @@ class Painter {
   Paint paint(const PigmentNode& pigment, const Leaf& leaf, bool uv = false);
 
  private:
+  void tell(const Omissions& left);
   struct Look {
     Paint diffuse, ambient, emissive, specular, reflective, transmissive;
     Real shininess = 0, bump = 0;

@@ -1,4 +1,4 @@
-// What a scene asks of its own objects while it is read: trace(), inside(), min_extent(), max_extent().
+// Questions of a scene to its own objects while it is read: trace(), inside(), min_extent(), max_extent().
 #pragma once
 
 #include <optional>

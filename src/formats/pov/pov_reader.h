@@ -94,6 +94,15 @@ class Reader {
   template <class Body>
   auto untilDirective(Body&& body);
   void spend(const Token& at);
+  /// Omissions go to the list as long as it lives.
+  struct LeftTo {
+    Reader& reader;
+    Omissions* before;
+    LeftTo(Reader& r, Omissions& to) : reader(r), before(r.left_) { r.left_ = &to; }
+    ~LeftTo() { reader.left_ = before; }
+    LeftTo(const LeftTo&) = delete;
+    LeftTo& operator=(const LeftTo&) = delete;
+  };
 
   Slot* find(std::string_view name);
   Slot elementSlot(Slot slot, const Token& name);
@@ -108,7 +117,8 @@ class Reader {
   void leaveOut(const Token& at, const std::string& what, const std::string& hint = {});
 
   // --- expressions (pov_expressions.cpp) ---
-  Value anyValue();  ///< what may stand behind #declare NAME =
+  /// What may stand behind #declare NAME =; elements of an array may lack commas, so they compare nothing.
+  Value anyValue(bool compares = true);
   Numbers expression(bool compares = false);
   Numbers binary(int least, Numbers left, bool compares);
   Numbers unary(bool compares);
@@ -185,6 +195,8 @@ class Reader {
   void mesh(Node& node);
   void mesh2(Node& node);
   void parametric(Node& node, const Token& at);
+  void textShape(Node& node, const Token& at);
+  std::string readNamed(const Token& at, const std::string& name);
   void omitBlock();
   std::shared_ptr<Node> lightSource();
   std::vector<Ref<Node>> objectsIn();
@@ -205,7 +217,7 @@ class Reader {
   Ref<MapNode> map(const Token& keyword);
   bool startsPattern(const Token& t) const;
 
-  // --- the camera and what is around (pov_camera.cpp) ---
+  // --- the camera and the environment (pov_camera.cpp) ---
   CameraNode camera();
   void globalSettings();
   FogNode fog();
@@ -231,8 +243,10 @@ class Reader {
     bool active = false;
     int nest = 0;
     std::size_t frames = 0;
+    bool begun = false;  ///< a token of the value was read
   } stop_;
-  int depth_ = 0;  ///< expressions and objects, one within the other
+  Omissions* left_ = nullptr;  ///< omissions of the texture that is read
+  int depth_ = 0;              ///< expressions and objects, one within the other
   std::int64_t steps_ = 0;
   std::int64_t madeObjects_ = 0;
   std::vector<std::uint64_t> seeds_;

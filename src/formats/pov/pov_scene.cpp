@@ -17,7 +17,7 @@
 namespace trace::pov {
 namespace {
 
-/// What an object has from the ones around it.
+/// Properties that an object has from the ones around it.
 struct Around {
   Ref<TextureNode> texture;
   Affine worldFromTexture;
@@ -44,7 +44,7 @@ class Builder {
   void sky();
   void settings();
   void emit(const Node& node, const Affine& worldFromParent, Around around, int depth);
-  void light(const Node& node, const Affine& world, const Around& around, int depth);
+  void light(const Node& node, const Affine& world);
   void add(Shape shape, const Affine& worldFromObject, std::uint32_t material, const Node& node);
   std::optional<SolidPart> solid(const Node& node, const Affine& worldFromParent, Around around, int depth);
   std::optional<SolidPart> combinedSolid(Node::Kind kind, std::vector<SolidPart> parts,
@@ -159,7 +159,7 @@ void Builder::emit(const Node& node, const Affine& worldFromParent, Around aroun
   around = within(node, world, std::move(around));
   switch (node.kind) {
     case Node::Kind::nothing: return;
-    case Node::Kind::light: return light(node, world, around, depth);
+    case Node::Kind::light: return light(node, world);
     case Node::Kind::unite:
       if (!node.clips.empty()) break;
       if (depth > kMostUnions) return leaveOut(node.place, "a union more than 60 deep");
@@ -315,13 +315,11 @@ std::optional<SolidPart> Builder::solid(const Node& node, const Affine& worldFro
   return result;
 }
 
-void Builder::light(const Node& node, const Affine& world, const Around& around, int depth) {
+void Builder::light(const Node& node, const Affine& world) {
   const LightNode& l = node.light;
   const Vec3 position = world * l.position, at = world * l.pointAt;
   const Place place = node.place;
-  for (const Ref<Node>& looks : node.parts)
-    emit(*looks, world * Affine::translation(l.position), {world_.defaultTexture, base_, nullptr}, depth + 1);
-  (void)around;
+  if (!node.parts.empty()) leaveOut(place, "looks_like", "the object would keep the light inside");
   const auto fade = [&](auto& to) {
     to.constant = 1, to.linear = 0, to.quadratic = 0;
     if (!(l.fadePower > 0) || !(l.fadeDistance > 0)) return;
@@ -458,6 +456,9 @@ void Builder::settings() {
   choose("limit-attenuation", "false");
   choose("air-index", "1");
   choose("depth", std::to_string(world_.depth));
+  if (std::any_of(world_.objects.begin(), world_.objects.end(),
+                  [](const Ref<Node>& o) { return o->kind == Node::Kind::light && o->light.area; }))
+    choose("light-samples", "4");
   const bool linear = world_.gamma == 0 ? world_.version >= 3.7 : std::abs(world_.gamma - 1) < 0.3;
   choose("transfer", linear ? "srgb" : "linear");
   if (world_.radiosity)
@@ -473,8 +474,9 @@ void Builder::settings() {
     }
     if (!(fog.distance > 0)) continue;
     choose("fog", shortest(1 / fog.distance));
-    choose("fog-color", shortest(std::max(fog.color.r, 0.0)) + "," + shortest(std::max(fog.color.g, 0.0)) +
-                            "," + shortest(std::max(fog.color.b, 0.0)));
+    choose("fog-color", shortest(std::clamp(fog.color.r, 0.0, 1.0)) + "," +
+                            shortest(std::clamp(fog.color.g, 0.0, 1.0)) + "," +
+                            shortest(std::clamp(fog.color.b, 0.0, 1.0)));
   }
 }
 

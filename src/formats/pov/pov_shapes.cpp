@@ -96,6 +96,7 @@ bool Reader::shape(const Token& keyword, Node& node) {
   if (w == "mesh") return mesh(node), true;
   if (w == "mesh2") return mesh2(node), true;
   if (w == "parametric") return parametric(node, keyword), true;
+  if (w == "text") return textShape(node, keyword), true;
   return false;
 }
 
@@ -236,9 +237,27 @@ std::vector<Point> sharedEnds(const std::vector<Point>& points) {
   return shared;
 }
 
+/// Arcs of parabolas, each through two points and the one before them, as Bezier arcs that share their ends.
+/// The first point only guides the first arc.
+std::vector<std::array<Real, 2>> parabolas(const std::vector<std::array<Real, 2>>& p) {
+  std::vector<std::array<Real, 2>> arcs;
+  for (std::size_t i = 1; i + 1 < p.size(); ++i) {
+    std::array<Real, 2> first{}, second{};
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const Real a = p[i - 1][axis], b = p[i][axis], c = p[i + 1][axis];
+      const Real slope = (c - a) / 2, bend = (a + c) / 2 - b;
+      first[axis] = b + slope / 3;
+      second[axis] = c - (slope + 2 * bend) / 3;
+    }
+    if (arcs.empty()) arcs.push_back(p[i]);
+    arcs.insert(arcs.end(), {first, second, p[i + 1]});
+  }
+  return arcs;
+}
+
 Spline splineOf(std::string_view word) {
-  if (word.starts_with("bezier")) return Spline::bezier;
-  if (word.starts_with("cubic") || word.starts_with("quadratic")) return Spline::catmull;
+  if (word.starts_with("bezier") || word.starts_with("quadratic")) return Spline::bezier;
+  if (word.starts_with("cubic")) return Spline::catmull;
   if (word.starts_with("b_")) return Spline::bspline;
   return Spline::linear;
 }
@@ -268,7 +287,10 @@ void Reader::lathe(Node& node, bool sor) {
     shape.capped = false;
   }
   shape.spline = splineOf(kind);
-  if (kind == "quadratic_spline" && shape.profile.size() >= 3) shape.profile.push_back(shape.profile.back());
+  if (kind == "quadratic_spline") {
+    if (count < 3) fail(at, "a quadratic profile of less than three points");
+    shape.profile = parabolas(shape.profile);
+  }
   if (kind == "bezier_spline") shape.profile = sharedEnds(shape.profile);
   const auto& p = shape.profile;
   const bool closes =
@@ -326,11 +348,15 @@ void Reader::prism(Node& node) {
     const std::size_t behind = kind == "cubic_spline" ? 1 : 0;
     std::size_t i = 0;
     while (i + before < points.size()) {
+      const std::size_t guide = i;
       const std::size_t first = i + before;
       std::size_t end = first + 1;
       while (end < points.size() && points[end] != points[first]) ++end;
       loops.emplace_back(points.begin() + static_cast<std::ptrdiff_t>(first),
                          points.begin() + static_cast<std::ptrdiff_t>(std::min(end, points.size())));
+      if (kind == "quadratic_spline" && end < points.size())
+        loops.back() = parabolas(Prism::Outline(points.begin() + static_cast<std::ptrdiff_t>(guide),
+                                                points.begin() + static_cast<std::ptrdiff_t>(end) + 1));
       i = end + 1 + behind;
     }
   }

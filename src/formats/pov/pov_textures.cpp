@@ -361,6 +361,8 @@ Ref<PigmentNode> Reader::pigment(std::string_view) {
 
 /// Up to the bracket that closes it.
 void Reader::pigmentBody(PigmentNode& p) {
+  Omissions own;
+  const LeftTo told(*this, own);
   while (!peek().isMark("}") && !peek().isMark("]")) {
     const Token t = peek();
     if (takesMark(",") || takesMark(";")) continue;
@@ -459,6 +461,7 @@ void Reader::pigmentBody(PigmentNode& p) {
     }
     expected("a colour, a pattern, a map or \"}\" in the pigment");
   }
+  p.left.insert(p.left.end(), own.begin(), own.end());
 }
 
 // --- normals and finishes ---
@@ -474,6 +477,8 @@ Ref<NormalNode> Reader::normal() {
     return *held;
   }
   next();
+  Omissions own;
+  const LeftTo told(*this, own);
   while (!takesMark("}")) {
     const Token t = peek();
     if (takesMark(",")) continue;
@@ -522,6 +527,7 @@ Ref<NormalNode> Reader::normal() {
     if (!patternModifier(n->pattern ? *n->pattern : none, n->at))
       expected("a pattern, a modifier or \"}\" in the normal");
   }
+  n->left.insert(n->left.end(), own.begin(), own.end());
   return n;
 }
 
@@ -535,6 +541,8 @@ Ref<FinishNode> Reader::finish() {
     return *held;
   }
   next();
+  Omissions own;
+  const LeftTo told(*this, own);
   while (!takesMark("}")) {
     const Token t = peek();
     if (takesMark(",") || takesMark(";")) continue;
@@ -618,6 +626,7 @@ Ref<FinishNode> Reader::finish() {
            "such words are ambient, diffuse, specular, roughness, phong, phong_size, reflection");
     }
   }
+  f->left.insert(f->left.end(), own.begin(), own.end());
   return f;
 }
 
@@ -819,6 +828,8 @@ Ref<InteriorNode> Reader::interior() {
     return *held;
   }
   next();
+  Omissions own;
+  const LeftTo told(*this, own);
   while (!takesMark("}")) {
     const Token t = peek();
     if (takesMark(",") || takesMark(";")) continue;
@@ -859,6 +870,7 @@ Ref<InteriorNode> Reader::interior() {
       fail(t, "expected a word of an interior or \"}\", found " + describe(t));
     }
   }
+  in->left.insert(in->left.end(), own.begin(), own.end());
   return in;
 }
 

@@ -62,7 +62,7 @@ struct MapNode;
 template <class T>
 using Ref = std::shared_ptr<const T>;
 
-/// What a name stands for.
+/// The meaning of a name.
 struct Value {
   std::variant<std::monostate, Numbers, std::string, Affine, std::shared_ptr<Array>, Ref<Formula>,
                std::shared_ptr<SplineCurve>, Ref<Macro>, Ref<Node>, Ref<PigmentNode>, Ref<NormalNode>,
@@ -76,11 +76,11 @@ struct Value {
   }
   bool none() const { return held.index() == 0; }
 };
-/// What a macro shares with its caller.
+/// A value that a macro shares with its caller.
 using Slot = std::shared_ptr<Value>;
 
 struct Array {
-  std::vector<std::size_t> sizes;  ///< of each dimension
+  std::vector<std::size_t> sizes;  ///< size of each dimension
   std::vector<Slot> elements;
   std::size_t level = 0;  ///< the dimensions that were chosen already
 };

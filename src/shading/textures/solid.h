@@ -172,7 +172,7 @@ struct Solid : PatternColors {
  private:
   /// Smooth noise from 0 to 1.
   static Real noiseAt(const Vec3& p) {
-    return std::clamp(0.5 + 0.6 * gradientNoise<3>({p.x, p.y, p.z}, 7), 0.0, 1.0);
+    return std::clamp(0.53 + 0.48 * gradientNoise<3>({p.x, p.y, p.z}, 7), 0.0, 1.0);
   }
   static Vec3 vectorAt(const Vec3& p) {
     const std::array<Real, 3> q{p.x, p.y, p.z};
