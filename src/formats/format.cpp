@@ -20,6 +20,7 @@
 #include "formats/mesh/off_format.h"
 #include "formats/mesh/ply_format.h"
 #include "formats/mesh/stl_format.h"
+#include "formats/pov/pov_format.h"
 #include "formats/ray/file/format.h"
 #include "formats/ray/write/patch.h"
 #include "formats/ray/write/writer.h"
@@ -33,7 +34,7 @@ namespace {
 
 using Suffixes = std::array<std::string_view, 1>;
 constexpr std::array<std::string_view, 2> kScene{".ray", ".tr"};
-constexpr Suffixes kRay{".ray"}, kOut{".out"}, kPly{".ply"}, kObj{".obj"}, kOff{".off"}, kStl{".stl"};
+constexpr Suffixes kRay{".ray"}, kOut{".out"}, kPly{".ply"}, kObj{".obj"}, kOff{".off"}, kStl{".stl"}, kPov{".pov"};
 constexpr std::array<std::string_view, 2> kGltf{".gltf", ".glb"}, kInventor{".wrl", ".iv"};
 
 constexpr std::array kFormats{
@@ -57,6 +58,12 @@ constexpr std::array kFormats{
                 .recognises = recognisesInventor,
                 .read = readInventor,
                 .write = writeInventor},
+    SceneFormat{.name = "pov",
+                .suffixes = kPov,
+                .help = "scenes of POV-Ray 3.7, as far as Trace has what they use",
+                .recognises = recognisesPov,
+                .mayBe = mayBePov,
+                .readAt = readPov},
     SceneFormat{.name = "ubc",
                 .suffixes = kRay,
                 .help = "scenes of British Columbia and Montreal, of commands such as Dimensions 640 480",

@@ -121,10 +121,22 @@ std::string summary(const Texture& texture) {
   return kind;
 }
 
+namespace {
+
+/// Texture coordinates of a point.
+Vec2 mapped(Mapping mapping, const Vec3& p) {
+  if (mapping == Mapping::plane) return {p.x, p.y};
+  const Real turn = std::atan2(p.z, p.x) / (2 * kPi), around = turn < 0 ? turn + 1 : turn;
+  if (mapping == Mapping::cylinder) return {around, p.y};
+  return {around, 0.5 + std::atan2(p.y, std::hypot(p.x, p.z)) / kPi};
+}
+
+}  // namespace
+
 Texel ImageMap::texelAt(const TexturePlace& place) const {
   if (!file.map) return {};
   const auto& m = transform;
-  const Vec2& at = secondUv ? place.secondUv : place.uv;
+  const Vec2 at = mapping == Mapping::uv ? secondUv ? place.secondUv : place.uv : mapped(mapping, place.point);
   const Vec2 uv{m[0] * at.x + m[1] * at.y + m[2], m[3] * at.x + m[4] * at.y + m[5]};
   if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return {};
   const auto step = [&](const Vec2& d) { return Vec2{m[0] * d.x + m[1] * d.y, m[3] * d.x + m[4] * d.y}; };

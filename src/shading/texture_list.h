@@ -28,12 +28,13 @@
 #include "shading/textures/mix.h"
 #include "shading/textures/noise.h"
 #include "shading/textures/ramp.h"
+#include "shading/textures/solid.h"
 #include "shading/textures/spots.h"
 #include "shading/textures/wood.h"
 
 namespace trace {
 
 using TextureList = std::variant<ImageMap, Checker, Brick, Gradient, Spots, Noise, Marble, Wood, Granite,
-                                 Clouds, Cells, Ramp, Mix, Formula, Blackbody>;
+                                 Clouds, Cells, Solid, Ramp, Mix, Formula, Blackbody>;
 
 }  // namespace trace

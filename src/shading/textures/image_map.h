@@ -25,6 +25,15 @@ enum class Relief {
 };
 constexpr std::array<std::string_view, 3> names(Relief) { return {"heights", "normals", "normals_down"}; }
 
+/// How the picture is laid on a surface.
+enum class Mapping {
+  uv,        ///< by texture coordinates
+  plane,     ///< along z, onto the square from 0 to 1 in x and y
+  sphere,    ///< around y, from pole to pole, as seen from the origin
+  cylinder,  ///< around y, from y = 0 to 1
+};
+constexpr std::array<std::string_view, 4> names(Mapping) { return {"uv", "plane", "sphere", "cylinder"}; }
+
 struct ImageMap {
   static constexpr std::string_view kKeyword = "image";
   static constexpr std::string_view kHelp = "a picture, by u and v: (0, 0) is its bottom left corner";
@@ -37,6 +46,7 @@ struct ImageMap {
   Channel channel = Channel::color;
   Relief relief = Relief::heights;
   bool secondUv = false;
+  Mapping mapping = Mapping::uv;
   std::array<Real, 6> transform{1, 0, 0, 0, 1, 0};
 
   static constexpr auto fields() {
@@ -55,12 +65,14 @@ struct ImageMap {
               "its meaning as a bump: heights, or normals whose green counts up or down"},
         Field{"second_uv", &ImageMap::secondUv, "", -kNoLimit, kNoLimit,
               "it uses the second texture coordinates of its mesh, `texture_uv2`, if there are some"},
+        Field{"mapping", &ImageMap::mapping, "", -kNoLimit, kNoLimit,
+              "by texture coordinates, or by the point: flat, around a ball or around a cylinder"},
         Field{"transform", &ImageMap::transform, "", -kNoLimit, kNoLimit,
               "(a, b, c, d, e, f): at (u, v) the picture is evaluated at (a u + b v + c, d u + e v + f)"}};
   }
   bool operator==(const ImageMap&) const = default;
 
-  bool wantsUv() const { return true; }
+  bool wantsUv() const { return mapping == Mapping::uv; }
   bool wantsFootprint() const { return filter == TexelFilter::trilinear || filter == TexelFilter::ewa; }
   /// Black where nothing is loaded.
   Texel texelAt(const TexturePlace& place) const;

@@ -1,0 +1,2 @@
+#macro A(N) A(N + 1) #end
+A(1)

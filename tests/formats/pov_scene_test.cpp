@@ -1,0 +1,242 @@
+// Scenes of POV-Ray as Trace has them: each object, textures, lights, the camera.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "base/file.h"
+#include "formats/format.h"
+#include "geometry/shapes/cone.h"
+#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/isosurface.h"
+#include "geometry/shapes/prism.h"
+#include "geometry/shapes/torus.h"
+#include "shading/materials/phong.h"
+#include "shading/textures/solid.h"
+#include "support/paths.h"
+
+namespace trace::pov_scene_test {
+namespace {
+
+Scene sceneOf(const std::string& text, std::string* warnings = nullptr) {
+  Messages messages;
+  Scene scene = readScene("test.pov", "#version 3.7;\n" + text, messages);
+  for (const Message& m : messages.all())
+    if (warnings) *warnings += std::to_string(m.place.line) + ": " + m.what + "\n";
+  return scene;
+}
+std::string choiceOf(const Scene& scene, std::string_view option) {
+  std::string value;
+  for (const Choice& choice : scene.choices)
+    if (choice.option == option) value = choice.value;
+  return value;
+}
+const Phong& phongOfFirst(const Scene& scene) {
+  return *scene.materials.at(scene.objects.at(0).material).model.as<Phong>();
+}
+void expectNear(const Vec3& a, const Vec3& b) {
+  EXPECT_NEAR(a.x, b.x, 1e-9);
+  EXPECT_NEAR(a.y, b.y, 1e-9);
+  EXPECT_NEAR(a.z, b.z, 1e-9);
+}
+
+TEST(PovScene, TheCameraTurnsRound) {
+  const Scene scene = sceneOf("camera { location <1, 2, -5> look_at <1, 2, 0> angle 90 right x * 2 up y }");
+  EXPECT_EQ(scene.camera.position, (Vec3{1, 2, 5}));
+  expectNear(normalize(scene.camera.viewdir), {0, 0, -1});
+  expectNear(normalize(scene.camera.updir), {0, 1, 0});
+  EXPECT_NEAR(scene.camera.aspectratio, 2, 1e-12);
+}
+
+TEST(PovScene, ARightHandedCameraKeepsZ) {
+  const Scene scene = sceneOf("camera { location <0, 0, 5> right -x look_at 0 } sphere { <0, 0, 2>, 1 }");
+  EXPECT_EQ(scene.camera.position, (Vec3{0, 0, 5}));
+  EXPECT_EQ(scene.objects.at(0).worldFromObject.offset, (Vec3{0, 0, 2}));
+}
+
+TEST(PovScene, TheAngleIsHorizontal) {
+  const Scene scene = sceneOf("camera { angle 90 right x up y }");
+  EXPECT_NEAR(scene.camera.fov, 90, 1e-9);
+}
+
+TEST(PovScene, ShapesStandWhereTheyAre) {
+  const Scene scene = sceneOf(
+      "box { <0, 0, 0>, <2, 4, 6> } cylinder { <0, 1, 0>, <0, 3, 0>, 0.5 open } cone { 0, 1, y, 0 } torus { "
+      "2, 0.5 } "
+      "plane { y, -1 } union { sphere { 0, 1 } sphere { x, 1 } translate 2 * y }");
+  ASSERT_EQ(scene.objects.size(), 7u) << "a union is its parts";
+  expectNear(scene.objects[0].worldFromObject.offset, {1, 2, -3});
+  EXPECT_FALSE(scene.objects[1].shape.as<Cylinder>()->capped);
+  expectNear(scene.objects[1].worldFromObject * Vec3{0, 0, 1}, {0, 3, 0});
+  EXPECT_EQ(scene.objects[3].shape.as<Torus>()->majorRadius, 2);
+  expectNear(linear(scene.objects[3].worldFromObject, {0, 0, 1}), {0, 1, 0});
+  expectNear(scene.objects[4].worldFromObject.offset, {0, -1, 0});
+  expectNear(scene.objects[6].worldFromObject.offset, {1, 2, 0});
+}
+
+TEST(PovScene, TransformsFollowInOrder) {
+  const Scene scene = sceneOf("sphere { x, 1 rotate 90 * z translate <0, 0, 4> scale 2 }");
+  expectNear(scene.objects.at(0).worldFromObject.offset, {0, 2, -8});
+}
+
+TEST(PovScene, SolidsOfSolids) {
+  const Scene scene = sceneOf(
+      "difference { box { -1, 1 } sphere { 0, 1 } } intersection { sphere { 0, 1 } sphere { 0, 2 inverse } } "
+      "merge { sphere { 0, 1 } box { 0, 1 } }");
+  ASSERT_EQ(scene.objects.size(), 3u);
+  EXPECT_TRUE(scene.objects[0].shape.is<Difference>());
+  EXPECT_TRUE(scene.objects[1].shape.is<Difference>()) << "an inverse operand is cut out";
+  EXPECT_EQ(scene.objects[1].shape.operands().list().size(), 2u);
+}
+
+TEST(PovScene, TexturesBecomeMaterials) {
+  const Scene scene = sceneOf(
+      "sphere { 0, 1 pigment { rgb <1, 0.5, 0> } finish { ambient 0.2 diffuse 0.5 specular 0.4 roughness "
+      "0.02 reflection 0.25 } }");
+  const Phong& phong = phongOfFirst(scene);
+  EXPECT_EQ(phong.diffuse, Color(0.5, 0.25, 0));
+  EXPECT_EQ(phong.ambient, Color(0.2, 0.1, 0));
+  EXPECT_EQ(phong.specular, Color(0.4));
+  EXPECT_EQ(phong.reflective, Color(0.25));
+  EXPECT_NEAR(phong.shininess, 50, 1e-9);
+}
+
+TEST(PovScene, GlassLetsItsFilterThrough) {
+  const Scene scene = sceneOf("sphere { 0, 1 pigment { rgbf <1, 0.5, 0, 0.8> } interior { ior 1.5 } }");
+  const Phong& phong = phongOfFirst(scene);
+  EXPECT_EQ(phong.transmissive, Color(0.8, 0.4, 0));
+  EXPECT_EQ(phong.index, 1.5);
+  EXPECT_NEAR(phong.diffuse.r, 0.6 * 0.2, 1e-12);
+}
+
+TEST(PovScene, MapsBecomeRamps) {
+  const Scene scene = sceneOf(
+      "sphere { 0, 1 pigment { leopard color_map { [0 rgb 0] [1 rgb 1] } turbulence 0.5 frequency 3 "
+      "sine_wave } finish { diffuse 1 } }");
+  const Texture* texture = textureOf(scene.materials.at(scene.objects.at(0).material).textures, "diffuse");
+  ASSERT_TRUE(texture);
+  const Solid* solid = (*texture)->model.as<Solid>();
+  ASSERT_TRUE(solid);
+  EXPECT_EQ(solid->kind, SolidPattern::leopard);
+  EXPECT_EQ(solid->wave, SolidWave::sine);
+  EXPECT_EQ(solid->frequency, 3);
+  EXPECT_EQ(solid->turbulence, (Vec3{0.5, 0.5, 0.5}));
+  EXPECT_EQ(solid->ramp, (ColorRamp{{0, 0, 0, 0}, {1, 1, 1, 1}}));
+}
+
+/// The colour of the first object's diffuse texture at a point of the world.
+Color seenAt(const Scene& scene, const Vec3& world) {
+  const Object& object = scene.objects.at(0);
+  const Texture* texture = textureOf(scene.materials.at(object.material).textures, "diffuse");
+  if (!texture) return Color(-1);
+  return (*texture).at({.point = inverse(object.worldFromObject) * world,
+                        .uv = {},
+                        .uvX = {},
+                        .uvY = {},
+                        .pointX = {},
+                        .pointY = {}});
+}
+
+TEST(PovScene, PatternsStandInTheWorld) {
+  const std::string paint =
+      "pigment { checker rgb 1, rgb 0 scale <2, 1, 1> rotate 90 * z translate x } finish { diffuse 1 }";
+  for (const std::string body :
+       {"sphere { <5, 6, 7>, 3 ", "box { -4, <9, 3, 1> ", "cylinder { -x, <3, 4, 5>, 2 "}) {
+    const Scene scene = sceneOf(body + paint + " }");
+    EXPECT_EQ(seenAt(scene, {0.5, 0.5, -0.5}), Color(1)) << body;
+    EXPECT_EQ(seenAt(scene, {0.5, 1.5, -0.5}), Color(1)) << body << "cells are two high";
+    EXPECT_EQ(seenAt(scene, {0.5, 2.5, -0.5}), Color(0)) << body;
+    EXPECT_EQ(seenAt(scene, {1.5, 0.5, -0.5}), Color(0)) << body;
+  }
+}
+
+TEST(PovScene, TexturesMoveWithTheirObjects) {
+  const Scene before =
+      sceneOf("sphere { 0, 1 pigment { checker rgb 1, rgb 0 } finish { diffuse 1 } translate x }");
+  EXPECT_EQ(seenAt(before, {1.5, 0.5, -0.5}), Color(1));
+  const Scene after =
+      sceneOf("sphere { 0, 1 translate x pigment { checker rgb 1, rgb 0 } finish { diffuse 1 } }");
+  EXPECT_EQ(seenAt(after, {1.5, 0.5, -0.5}), Color(0));
+}
+
+TEST(PovScene, ShearedPatternsToo) {
+  const Scene scene = sceneOf(
+      "sphere { 0, 1 pigment { checker rgb 1, rgb 0 matrix <1, 0, 0, 0.5, 1, 0, 0, 0, 1, 0, 0, 0> } finish { "
+      "diffuse 1 } }");
+  EXPECT_EQ(seenAt(scene, {0.9, 0.5, -0.5}), Color(1)) << "from 0.25 to 1.25";
+  EXPECT_EQ(seenAt(scene, {0.1, 0.5, -0.5}), Color(0));
+}
+
+TEST(PovScene, Lights) {
+  const Scene scene = sceneOf(
+      "light_source { <1, 2, 3>, rgb <1, 0.5, 0> fade_distance 4 fade_power 2 } light_source { 10 * y, 1 "
+      "spotlight point_at 0 radius "
+      "10 falloff 20 tightness 5 } light_source { 10 * y, 1 parallel point_at 0 } light_source { y, 1 "
+      "area_light x * 2, z * 2, 3, 3 }");
+  const auto& point = std::get<PointLight>(scene.lights.at(0).light);
+  EXPECT_EQ(point.position, (Vec3{1, 2, -3}));
+  EXPECT_EQ(point.constant, 0.5);
+  EXPECT_EQ(point.quadratic, 0.5 / 16);
+  const auto& spot = std::get<SpotLight>(scene.lights.at(1).light);
+  EXPECT_EQ(spot.angle, 20);
+  EXPECT_EQ(spot.fullAngle, 10);
+  EXPECT_EQ(spot.exponent, 5);
+  expectNear(std::get<DirectionalLight>(scene.lights.at(2).light).direction, {0, -1, 0});
+  EXPECT_EQ(std::get<PointLight>(scene.lights.at(3).light).radius, 1);
+}
+
+TEST(PovScene, GammaAndDepth) {
+  EXPECT_EQ(choiceOf(sceneOf("global_settings { assumed_gamma 1 max_trace_level 9 }"), "depth"), "9");
+  EXPECT_EQ(choiceOf(sceneOf("global_settings { assumed_gamma 1 }"), "transfer"), "srgb");
+  EXPECT_EQ(choiceOf(sceneOf("global_settings { assumed_gamma 2.2 }"), "transfer"), "linear");
+}
+
+TEST(PovScene, FormulasOfIsosurfaces) {
+  const Scene scene = sceneOf(
+      "#declare F = function { sqrt(x * x + y * y) - 1 }; isosurface { function { max(F(x, y, z), abs(z) - "
+      "2) } contained_by { box { -3, 3 } } "
+      "threshold 0.5 }");
+  const Isosurface& shape = *scene.objects.at(0).shape.as<Isosurface>();
+  EXPECT_EQ(shape.low, (Vec3{-3, -3, -3}));
+  EXPECT_NEAR(Expression(shape.formula).at({2, 0, 0}), 0.5, 1e-12);
+  EXPECT_NEAR(Expression(shape.formula).at({0, 0, 4}), 1.5, 1e-12);
+}
+
+TEST(PovScene, OmissionsAreToldOnceAndCounted) {
+  std::string warnings;
+  sceneOf("\nlight_source { 0, 1 shadowless }\nlight_source { x, 1 shadowless }\nsphere { 0, 1 }", &warnings);
+  EXPECT_EQ(warnings, "3: shadowless is left out (2 times, first here)\n");
+  warnings.clear();
+  sceneOf("#declare F = finish { crand 0.1 } sphere { 0, 1 }", &warnings);
+  EXPECT_EQ(warnings, "") << "what is not used is not left out";
+}
+
+TEST(PovScene, EveryShapeOfTheCorpusIsRead) {
+  Messages messages;
+  const Scene scene = readScene(test::sourceFolder() + "/tests/corpus/pov/shapes.pov", messages);
+  EXPECT_EQ(scene.objects.size(), 17u);
+  for (const Message& m : messages.all()) ADD_FAILURE() << toString(m);
+}
+
+TEST(PovScene, ExamplesOfThePackageAreRead) {
+  const std::string folder = "/usr/share/doc/povray/examples";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "Debian's package povray-examples is not installed";
+  int files = 0, read = 0;
+  for (const char* part : {"/objects", "/textures/patterns", "/incdemo/woods", "/language"})
+    for (const auto& entry : std::filesystem::directory_iterator(folder + part)) {
+      if (entry.path().extension() != ".pov") continue;
+      ++files;
+      try {
+        Messages messages;
+        readScene(entry.path().string(), messages);
+        ++read;
+      } catch (const Error& error) {
+        if (error.messages().empty()) ADD_FAILURE() << entry.path();
+      }
+    }
+  EXPECT_GE(read, files * 9 / 10) << "of " << files;
+}
+
+}  // namespace
+}  // namespace trace::pov_scene_test
