@@ -77,6 +77,7 @@ struct Arguments {
   bool plain = false;  ///< -b: one ray a pixel, and no early stop that the scene asks for
   bool quiet = false;
   std::optional<std::string> format;  ///< --format
+  bool toStdout = false;              ///< render: the picture then goes to the standard output
   std::string pixel;                  ///< explain: --pixel, as typed
   std::string sample;                 ///< explain: --sample, as typed
   bool lightImage = false;            ///< explain: --light-image

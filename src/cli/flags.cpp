@@ -208,6 +208,11 @@ std::span<const Flag> flags() {
   static constexpr std::array kTable{
       Flag{"output", 'o', Takes::value, "FILE", "", kWithOutput, true,
            "the file to write; ray COMMAND --help describes its contents", setOutput},
+      Flag{"format", 0, Takes::value, "FORMAT", "", kRender, false,
+           "the format of a picture that -o - writes to the standard output, by its suffix: png (the "
+           "default), "
+           "exr, ppm",
+           [](Arguments& a, std::string_view value) { a.format = value; }},
       Flag{"frames", 0, Takes::value, "A-B", "", kFrames, false,
            "render frames A to B of an animation, or A-B/N every Nth; the picture's name holds #### for the "
            "number; frames that are there already with the same settings are skipped, but for .bmp "
