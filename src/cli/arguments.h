@@ -102,12 +102,14 @@ struct Arguments {
   double pixelsPerDegree = usualPixelsPerDegree();
   std::vector<const Metric*> printed;  ///< --print
   bool idiffCodes = false;
-  std::string scene;          ///< diff: --scene; may be empty
+  std::string scene;          ///< diff: --scene; grade: the folder of scenes; may be empty
   std::string reference;      ///< a folder
   bool renderScenes = false;  ///< --render
   bool ofClass = false;       ///< --class
   std::string rubric;         ///< a file; may be empty
   double sceneLimit = 0;      ///< seconds
+  std::string run;            ///< grade: the command of students' programs; may be empty
+  bool unsandboxed = false;   ///< grade
   bool help = false, helpAll = false, version = false, printDefaults = false;
 };
 
