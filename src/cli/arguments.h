@@ -77,6 +77,7 @@ struct Arguments {
   bool plain = false;  ///< -b: one ray a pixel, and no early stop that the scene asks for
   bool quiet = false;
   std::optional<std::string> format;  ///< --format
+  bool toStdout = false;              ///< render: the picture then goes to the standard output
   std::string pixel;                  ///< explain: --pixel, as typed
   std::string sample;                 ///< explain: --sample, as typed
   bool lightImage = false;            ///< explain: --light-image
@@ -101,12 +102,14 @@ struct Arguments {
   double pixelsPerDegree = usualPixelsPerDegree();
   std::vector<const Metric*> printed;  ///< --print
   bool idiffCodes = false;
-  std::string scene;          ///< diff: --scene; may be empty
+  std::string scene;          ///< diff: --scene; grade: the folder of scenes; may be empty
   std::string reference;      ///< a folder
   bool renderScenes = false;  ///< --render
   bool ofClass = false;       ///< --class
   std::string rubric;         ///< a file; may be empty
   double sceneLimit = 0;      ///< seconds
+  std::string run;            ///< grade: the command of students' programs; may be empty
+  bool unsandboxed = false;   ///< grade
   bool help = false, helpAll = false, version = false, printDefaults = false;
 };
 

@@ -100,8 +100,9 @@ void Console::last(bool well, const std::string& text) const {
   if (!well || !quiet_) printToTerminal(printable(text) + "\n");
 }
 
-void printResult(const std::string& text, Paint paint) {
-  const std::string shown = paint == Paint::none ? printable(text, LineEnds::kept) : text;
+namespace {
+
+void writeToStdout(const std::string& shown) {
   errno = 0;
   std::fwrite(shown.data(), 1, shown.size(), stdout);
   const bool failed = std::fflush(stdout) != 0 || std::ferror(stdout);
@@ -109,5 +110,13 @@ void printResult(const std::string& text, Paint paint) {
   if (failed)
     throw Error(Fault::io, std::string("cannot write to the standard output: ") + std::strerror(errno));
 }
+
+}  // namespace
+
+void printResult(const std::string& text, Paint paint) {
+  writeToStdout(paint == Paint::none ? printable(text, LineEnds::kept) : text);
+}
+
+void printFile(const std::string& bytes) { writeToStdout(bytes); }
 
 }  // namespace trace::cli

@@ -54,6 +54,8 @@ enum class Paint { none, colors };
 
 /// Writes to stdout. Throws Error(Fault::io) when that fails, as on a full disk, or ReaderGone.
 void printResult(const std::string& text, Paint paint = Paint::none);
+/// Writes the bytes of a file to stdout, likewise.
+void printFile(const std::string& bytes);
 
 /// Writes to stderr, at once, in place of a drawn line.
 void printToTerminal(const std::string& text);

@@ -208,6 +208,11 @@ std::span<const Flag> flags() {
   static constexpr std::array kTable{
       Flag{"output", 'o', Takes::value, "FILE", "", kWithOutput, true,
            "the file to write; ray COMMAND --help describes its contents", setOutput},
+      Flag{"format", 0, Takes::value, "FORMAT", "", kRender, false,
+           "the format of a picture that -o - writes to the standard output, by its suffix: png (the "
+           "default), "
+           "exr, ppm",
+           [](Arguments& a, std::string_view value) { a.format = value; }},
       Flag{"frames", 0, Takes::value, "A-B", "", kFrames, false,
            "render frames A to B of an animation, or A-B/N every Nth; the picture's name holds #### for the "
            "number; frames that are there already with the same settings are skipped, but for .bmp "
@@ -367,6 +372,22 @@ std::span<const Flag> flags() {
            "the scene that both pictures show: render it with other conventions, without shadows, without "
            "reflections and so on, and name what makes B; options are those that A was rendered with",
            [](Arguments& a, std::string_view value) { a.scene = value; }},
+      Flag{"scene", 0, Takes::value, "DIR", "", kGrade, false,
+           "the folder of the scenes that the references show, of the same names: name what a program does "
+           "differently with a scene, as ray diff --scene; options are those that the references were "
+           "rendered "
+           "with",
+           [](Arguments& a, std::string_view value) { a.scene = value; }},
+      Flag{"run", 0, Takes::value, "COMMAND", "", kGrade, false,
+           "with --class and --scene: run each student's own program on each scene, in a sandbox; a command "
+           "for "
+           "the student's folder, in which {scene} and {out} stand for the files, as './ray {scene} {out}'",
+           [](Arguments& a, std::string_view value) { a.run = value; }},
+      Flag{"unsandboxed", 0, Takes::nothing, "", "", kGrade, false,
+           "run the students' programs in your account, where they cannot be kept apart; they can then read "
+           "and "
+           "delete your files (docs/security.md)",
+           [](Arguments& a, std::string_view) { a.unsandboxed = true; }},
       Flag{"allow-read", 0, Takes::value, "DIR", "", kReading, false,
            "also let the scene read the files below this folder; without it only those below its own "
            "(docs/security.md); may be given several times",
@@ -385,7 +406,9 @@ std::span<const Flag> flags() {
            "default each scene is worth 1 point",
            [](Arguments& a, std::string_view value) { a.rubric = value; }},
       Flag{"scene-limit", 0, Takes::value, "SECONDS", "", kGrade, false,
-           "a scene that takes longer to render is stopped, and the next one begins; default 0, no limit",
+           "a scene that takes longer to render is stopped, and the next one begins; default 0, no limit; "
+           "with "
+           "--run the student's program, default 60",
            [](Arguments& a, std::string_view value) { a.sceneLimit = numberOf("scene-limit", value, 0); }},
       Flag{"pixel", 0, Takes::value, "X,Y", "", kExplain, true,
            "the pixel to explain; 0,0 is at the top left",

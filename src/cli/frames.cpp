@@ -140,6 +140,7 @@ int renderFrames(const Arguments& given, const std::string& pattern, const Conso
       if (done == 0) checkAllPlaces(session, pattern, missing);
       checkPlaces(session, picture);
       signals.preparingBegins();
+      session.setFramesPerSecond(arguments.framesPerSecond);
       session.build();
     } catch (const StoppedByUser&) {
       RenderResult cancelled;

@@ -7,12 +7,12 @@
 // ray grade --class DIR --reference DIR: students by scenes. With -o PAGE.html also PAGE.csv, and
 // PAGE.results, from which a run that was interrupted continues. Keys: folder, reference, possible, stopped
 // (or null), scenes[] of {name, points}, students[] of {name, points, passed, pairs[] of {file, verdict,
-// points, mistakes[], cause, problem}}, page, csv (or null).
+// points, mistakes[], cause, problem, cpu, our_cpu (seconds, or null)}}, page, csv (or null).
 #include <algorithm>
 #include <array>
 #include <filesystem>
 
-#include "app/compare/class_grade.h"
+#include "app/grading/class_grade.h"
 #include "app/session/json.h"
 #include "base/budget.h"
 #include "base/file.h"
@@ -42,7 +42,17 @@ GradeTask taskOf(const Arguments& arguments) {
           .magnify = arguments.magnify,
           .keepsPictures = !arguments.output.empty(),
           .page = arguments.output,
-          .sceneLimit = arguments.sceneLimit};
+          .sceneLimit = arguments.sceneLimit,
+          .scenes = arguments.scene};
+}
+
+/// How the students' programs are run.
+ProgramRun runOf(const Arguments& arguments) {
+  ProgramRun run{.command = arguments.run, .limits = {}, .isolated = !arguments.unsandboxed};
+  if (arguments.sceneLimit > 0) run.limits.seconds = arguments.sceneLimit;
+  if (const int megabytes = resolve({arguments.choices}).maxMemory; megabytes > 0)
+    run.limits.memory = static_cast<std::uint64_t>(megabytes) << 20;
+  return run;
 }
 
 /// The columns that UTF-8 text takes, as far as each character is one column wide.
@@ -170,7 +180,9 @@ std::string classJson(const ClassTask& task, const ClassGrades& grades) {
                             {"points", student.points[i]},
                             {"mistakes", std::move(mistakes)},
                             {"cause", pair.cause},
-                            {"problem", pair.problem}});
+                            {"problem", pair.problem},
+                            {"cpu", pair.cpu < 0 ? Json() : Json(pair.cpu)},
+                            {"our_cpu", pair.ourCpu < 0 ? Json() : Json(pair.ourCpu)}});
     }
     json["students"].add(std::move(one));
   }
@@ -181,6 +193,7 @@ int classCommand(const Arguments& arguments, const Console& console, bool asJson
   ClassTask task{.grade = taskOf(arguments),
                  .rubric = arguments.rubric.empty() ? Rubric{} : readRubric(arguments.rubric),
                  .results = besidePage(arguments.output, ".results"),
+                 .run = runOf(arguments),
                  .csv = besidePage(arguments.output, ".csv")};
   if (!arguments.output.empty() && (task.csv == arguments.output || task.results == arguments.output))
     throw Error(Fault::usage, "-o: expected a page, such as class.html, found \"" + arguments.output + "\"");
@@ -218,6 +231,7 @@ int gradeCommand(const Arguments& arguments, const Console& console) {
   const bool asJson = chosenFormat(arguments, "grade", kTextOrJson) == "json";
   if (arguments.ofClass) return classCommand(arguments, console, asJson);
   if (!arguments.rubric.empty()) throw Error(Fault::usage, "--rubric needs --class");
+  if (!arguments.run.empty()) throw Error(Fault::usage, "--run needs --class");
   const GradeTask task = taskOf(arguments);
   if (!arguments.output.empty()) checkWritable(arguments.output);
   StopKey stop(console);

@@ -122,6 +122,7 @@ int renderPart(const Arguments& arguments, const std::string& named, const Conso
   checkWritable(output);
   signals.preparingBegins();
   try {
+    session.setFramesPerSecond(arguments.framesPerSecond);
     session.build();
   } catch (const StoppedByUser&) {
     console.last(false, "stopped by the user: nothing written, for nothing was finished");

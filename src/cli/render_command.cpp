@@ -43,7 +43,7 @@ std::string outputName(const Arguments& arguments) {
 /// after it.
 void checkIsScene(const std::string& scene) {
   std::error_code ignored;
-  if (fs::exists(scene, ignored)) return;
+  if (scene == kStandardInput || fs::exists(scene, ignored)) return;
   if (scene.starts_with('+'))  // as POV-Ray has them
     throw Error(Fault::usage, "unknown flag \"" + scene + "\"", "flags begin with - or --, as in -w 640");
   std::vector<std::string_view> names;
@@ -52,6 +52,50 @@ void checkIsScene(const std::string& scene) {
   if (!name.empty())
     throw Error(Fault::io, "there is no file \"" + scene + "\"",
                 "did you mean the command \"ray " + name + "\"?");
+}
+
+constexpr std::string_view kStandardOutput = "-";
+
+/// Where a picture lies until it is whole, which then goes to the standard output; removed with this.
+class PictureForStdout {
+ public:
+  explicit PictureForStdout(const std::string& format)
+      : folder_(makeOwnFolder()), picture_((folder_ / ("picture." + format)).string()) {}
+  ~PictureForStdout() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+  }
+  PictureForStdout(const PictureForStdout&) = delete;
+  PictureForStdout& operator=(const PictureForStdout&) = delete;
+
+  const std::string& picture() const { return picture_; }
+  void print() const { printFile(readFile(picture_)); }
+
+ private:
+  const fs::path folder_;
+  const std::string picture_;
+};
+
+/// Renders to a file and writes that to the standard output; nothing is left beside it.
+int renderToStdout(const Arguments& arguments, const Console& console) {
+  const std::string format = arguments.format.value_or("png");
+  pictureFormatFor("picture." + format);
+  if (!arguments.frames.empty() || arguments.part > 0)
+    throw Error(Fault::usage, "-o -: expected one picture, found --frames or --part", "-o FILE");
+  if (arguments.stats == StatsStyle::json)
+    throw Error(Fault::usage, "-o - and --stats=json both write to the standard output",
+                "--stats prints a table to "
+                "the terminal");
+  const PictureForStdout file(format);
+  Arguments own = arguments;
+  own.files.resize(1);
+  own.output = file.picture();
+  own.resume = Resume::never;
+  own.choices.push_back({"checkpoint-every", "0", {}});
+  own.toStdout = true;
+  const int code = renderCommand(own, console);
+  if (fs::exists(file.picture())) file.print();
+  return code;
 }
 
 }  // namespace
@@ -65,6 +109,10 @@ int renderCommand(const Arguments& arguments, const Console& console) {
 
   if (!arguments.files.empty()) checkIsScene(arguments.files[0]);
   const std::string named = outputName(arguments);
+  if (named == kStandardOutput) return renderToStdout(arguments, console);
+  if (arguments.format && !arguments.toStdout)
+    throw Error(Fault::usage, "--format is for a picture that -o - writes to the standard output",
+                "the name of another file chooses its format, as in -o out.exr");
   if (arguments.part > 0) return renderPart(arguments, named, console);
   if (!arguments.frames.empty()) {
     const std::string frames = fs::path(arguments.files[0]).stem().string() + ".####.png";
@@ -76,8 +124,12 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   session.open(arguments.files[0], arguments.choices, arguments.strict);
   const std::string output = pictureFor(session.scene(), named);
   checkPlaces(session, output);
+  if (arguments.toStdout && outputs(output, session.settings()).size() > 1)
+    throw Error(Fault::usage, "-o -: the passes have no files of their own",
+                "--format exr --pass-format layers writes them with the picture");
   signals.preparingBegins();
   try {
+    session.setFramesPerSecond(arguments.framesPerSecond);
     session.build();  // a lack of memory is the better reason to refuse a huge picture
   } catch (const StoppedByUser&) {
     console.last(false, "stopped by the user: nothing written, for nothing was finished");
@@ -126,7 +178,8 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   std::string chosen = chosenText(session.scene(), session.settings(), session.measuredExposure());
   if (!chosen.empty()) chosen.insert(0, "; ");
   const std::string passes = saved.finish == LastSteps::all ? andPasses(session.settings()) : "";
-  console.last(code == kDone, stopped + "wrote " + saved.path + passes + " (" +
+  const std::string written = arguments.toStdout ? "the picture to the standard output" : saved.path;
+  console.last(code == kDone, stopped + "wrote " + written + passes + " (" +
                                   pictureText(session, session.job().fraction()) + ") in " +
                                   durationText(seconds) + whereText(saved, output) + noise + cleaned +
                                   removedText(files) + goesOn + chosen);

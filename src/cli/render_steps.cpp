@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/session/picture_layers.h"
 #include "app/session/render_warnings.h"
 #include "base/budget.h"
 #include "base/file.h"
@@ -62,6 +63,7 @@ std::string pixelsText(const Size& size) {
 
 std::string pictureFor(const Scene& scene, const std::string& named) {
   if (!named.empty()) return named;
+  if (scene.file == kStandardInput) return "stdin.png";
   return !scene.picture.empty() ? scene.picture : std::filesystem::path(scene.file).stem().string() + ".png";
 }
 
@@ -84,6 +86,10 @@ void checkOutputs(const Session& session, const std::string& output, const Conso
                                         " goes beyond the picture of " + pixelsText(size) + ": " +
                                         regionText({left.x0, left.y0, left.x1, left.y1}) + " is rendered");
   const Settings& settings = session.settings();
+  if (settings.alpha && (!storesAlpha(output) || isAnaglyph(settings.stereo)))
+    console.line(LogLevel::warning, "warning: --alpha: " + output +
+                                        " has no alpha, and the environment behind the scene is black; "
+                                        ".png and .exr store it");
   if (const int taken = samplesOf(settings); taken > settings.spp && !subdivides(settings))
     console.line(LogLevel::info, "note: --sampling " + std::string(generatorOf(settings).name) + " takes " +
                                      std::to_string(taken) + " samples a pixel, the next square after " +
@@ -322,7 +328,8 @@ std::string andPasses(const Settings& settings) {
   for (const PassRow* pass : passesOf(settings))
     names += (names.empty() ? "" : ", ") + std::string(pass->name);
   if (names.empty()) return "";
-  return (names.find(',') == std::string::npos ? " and the pass " : " and the passes ") + names;
+  const char* with = settings.passFormat == PassFormat::layers ? " with the pass" : " and the pass";
+  return with + std::string(names.find(',') == std::string::npos ? " " : "es ") + names;
 }
 
 std::string whyStopped(const RenderResult& result) {

@@ -1,8 +1,7 @@
-// EXR through OpenEXR, the only file that sees it; in memory, so that all writing goes through base/file.h.
-// One station of codec.cpp's table. Written: channels R, G, B as 32-bit floats, zip-compressed. Read: one
-// layer (exr_layers.h) of any sample type and any primaries; the display window is the picture, in which
-// colours are multiplied by A. Source: "OpenEXR File Layout" and "Reading and Writing
-// OpenEXR Image Files" (openexr.com). No threads are started.
+// Reading EXR through OpenEXR, which only this file and exr_file.cpp see. One station of codec.cpp's table.
+// Read: one layer (exr_layers.h) of any sample type and any primaries; the display window is the picture, in
+// which colours are multiplied by A. Source: "OpenEXR File Layout" and "Reading and Writing OpenEXR Image
+// Files" (openexr.com). No threads are started.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -16,6 +15,7 @@
 #include "image/codec.h"
 #include "image/codec_parts.h"
 #include "image/exr_chunks.h"
+#include "image/exr_file.h"
 #include "image/exr_layers.h"
 
 #if defined(__GNUC__)
@@ -32,7 +32,6 @@
 #include <ImfInputFile.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
-#include <ImfOutputFile.h>
 #include <ImfPartType.h>
 #include <ImfRgbaYca.h>
 #include <ImfStandardAttributes.h>
@@ -46,25 +45,7 @@ namespace trace {
 namespace {
 
 constexpr int kNoThreads = 0;
-/// Keeps our words apart from the attributes OpenEXR gives a meaning.
-constexpr std::string_view kPrefix = "trace:";
-
-class MemoryOutput : public Imf::OStream {
- public:
-  explicit MemoryOutput(std::string& file) : Imf::OStream("memory"), file_(file) {}
-  void write(const char bytes[], int count) override {
-    const size_t n = static_cast<size_t>(count);
-    if (file_.size() < place_ + n) file_.resize(place_ + n);
-    std::memcpy(file_.data() + place_, bytes, n);
-    place_ += n;
-  }
-  uint64_t tellp() override { return place_; }
-  void seekp(uint64_t place) override { place_ = static_cast<size_t>(place); }
-
- private:
-  std::string& file_;
-  size_t place_ = 0;
-};
+constexpr std::string_view kPrefix = kExrWordPrefix;
 
 class MemoryInput : public Imf::IStream {
  public:
@@ -281,40 +262,6 @@ ExrLayout layoutOf(const Imf::Header& header, const ExrHeaders& headers) {
 }
 
 }  // namespace
-
-std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata) {
-  std::vector<float> values;
-  values.reserve(3 * picture.pixels.size());
-  for (const Color& c : picture.pixels) {
-    checkBudget();
-    for (double channel : {c.r, c.g, c.b}) values.push_back(static_cast<float>(channel));
-  }
-
-  Imf::Header header(picture.width, picture.height);
-  header.compression() = Imf::ZIP_COMPRESSION;
-  for (const auto& [key, text] : metadata)
-    header.insert(std::string(kPrefix) + cleanKey(key), Imf::StringAttribute(text));
-  Imf::FrameBuffer target;
-  const Imath::V2i origin(0, 0);
-  const char* names[] = {"R", "G", "B"};
-  for (size_t i = 0; i < 3; ++i) {
-    header.channels().insert(names[i], Imf::Channel(Imf::FLOAT));
-    target.insert(names[i], Imf::Slice::Make(Imf::FLOAT, values.data() + i, origin, picture.width,
-                                             picture.height, 3 * sizeof(float)));
-  }
-  std::string file;
-  {
-    MemoryOutput stream(file);
-    Imf::OutputFile output(stream, header, kNoThreads);
-    output.setFrameBuffer(target);
-    constexpr int kRows = 16;  // that ZIP packs together
-    for (int y = 0; y < picture.height; y += kRows) {
-      lookAtBudget();
-      output.writePixels(std::min(kRows, picture.height - y));
-    }
-  }  // the end of `output` completes the file
-  return file;
-}
 
 Raster decodeExr(std::string_view bytes, const PictureLimits& limits) {
   return decodeExrLayer(bytes, limits, "");

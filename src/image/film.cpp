@@ -37,7 +37,14 @@ Film::Film(int width, int height, int samples, std::span<const LayerKind> layers
       waves_(wavesOf(samples)),
       pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
       states_(std::make_unique<TileState[]>(static_cast<std::size_t>(tiles()))) {
-  for (const LayerKind& kind : layers) layers_.push_back({kind, Picture(width, height)});
+  for (const LayerKind& kind : layers) {
+    Layer& layer = layers_.emplace_back(Layer{.kind = kind, .sums = {}});
+    if (kind.keep == Keep::counts)
+      layer.counts.resize(pixels_.size());
+    else
+      layer.sums = Picture(width, height);
+    if (kind.keep == Keep::weighted) layer.below = Picture(width, height);
+  }
 }
 
 Tile Film::tile(std::int64_t index) const {
@@ -81,20 +88,48 @@ void Film::sum(const Wave& wave, const TileSamples& samples) {
         for (std::size_t k = at; k < at + count; ++k)
           if (isOfFirstHalf(wave.first + static_cast<int>(k - at)) && isFinite(samples.colors[k]))
             first_[index(x, y)].add(samples.colors[k], samples.weights.empty() ? 1 : samples.weights[k]);
-      for (std::size_t i = 0; i < layers_.size(); ++i) {
-        const auto value = [&](std::size_t k) {
-          return i < samples.layers.size() ? samples.layers[i][k] : layers_[i].kind.blank;
-        };
-        Color& sum = layers_[i].sums.at(x, y);
-        if (layers_[i].kind.keep != Keep::first)
-          for (std::size_t k = at; k < at + count; ++k) sum += value(k);
-        else if (wave.first == 0)
-          sum = value(at);
-      }
+      for (std::size_t i = 0; i < layers_.size(); ++i)
+        addToLayer(layers_[i], index(x, y), samples, i < samples.layers.size() ? &samples.layers[i] : nullptr,
+                   at, at + count, wave.first == 0);
       at += count;
       if (isFirst) pixel.noteFirstErrorFor(white_);
     }
   for (const PixelBeside& one : samples.beside) pixels_[index(one.x, one.y)].noteFirstError(one.firstError);
+}
+
+void Film::addToLayer(Layer& layer, std::size_t pixel, const TileSamples& samples,
+                      const std::vector<Color>* values, std::size_t first, std::size_t end,
+                      bool isFirstWave) {
+  const auto value = [&](std::size_t k) { return values ? (*values)[k] : layer.kind.blank; };
+  const auto addWeighted = [&](std::size_t k) {
+    if (!isFinite(samples.colors[k])) return;
+    const double weight = samples.weights.empty() ? 1 : samples.weights[k];
+    layer.sums.pixels[pixel] += value(k) * weight;
+    if (weight < 0) layer.below.pixels[pixel] += value(k) * weight;
+  };
+  const auto count = [&](std::size_t k) {
+    const auto number = static_cast<std::uint32_t>(value(k).r);
+    if (number == 0) return;
+    std::vector<Count>& counts = layer.counts[pixel];
+    const auto known =
+        std::find_if(counts.begin(), counts.end(), [&](const Count& c) { return c.number == number; });
+    known == counts.end() ? counts.push_back({number, 1}) : void(++known->count);
+  };
+  switch (layer.kind.keep) {
+    case Keep::first:
+      if (isFirstWave) layer.sums.pixels[pixel] = value(first);
+      return;
+    case Keep::mean:
+    case Keep::sum:
+      for (std::size_t k = first; k < end; ++k) layer.sums.pixels[pixel] += value(k);
+      return;
+    case Keep::weighted:
+      for (std::size_t k = first; k < end; ++k) addWeighted(k);
+      return;
+    case Keep::counts:
+      for (std::size_t k = first; k < end; ++k) count(k);
+      return;
+  }
 }
 
 bool Film::settled(int x, int y) const {
@@ -274,9 +309,59 @@ void Film::copyDone(Picture& onto) const {
   }
 }
 
+std::vector<std::vector<Film::Share>> Film::shares(std::size_t number) const {
+  std::vector<std::vector<Share>> all(pixels_.size());
+  const auto sorted = [](std::vector<Share> shares) {
+    std::sort(shares.begin(), shares.end(), [](const Share& a, const Share& b) {
+      return a.share != b.share ? a.share > b.share : a.number < b.number;
+    });
+    return shares;
+  };
+  if (corners_) {
+    forEachDivided([&](int x, int y, int levels) {
+      const auto value = corners_->of(x, y, number + 1);
+      std::vector<Share>& shares = all[index(x, y)];
+      const auto add = [&](Corner corner, double share) {
+        const auto one = static_cast<std::uint32_t>(value(corner).r);
+        if (one == 0) return;
+        const auto known =
+            std::find_if(shares.begin(), shares.end(), [&](const Share& s) { return s.number == one; });
+        known == shares.end() ? shares.push_back({one, share}) : void(known->share += share);
+      };
+      if (levels > 0)
+        forEachShare(corners_->rules(), levels - 1, corners_->of(x, y), add);
+      else
+        add(Corner{}, 1);
+      shares = sorted(std::move(shares));
+    });
+    return all;
+  }
+  forEachDone([&](const PixelSum& pixel, int x, int y) {
+    std::vector<Share> shares;
+    for (const Count& c : layers_[number].counts[index(x, y)])
+      shares.push_back({c.number, static_cast<double>(c.count) / pixel.taken()});
+    all[index(x, y)] = sorted(std::move(shares));
+  });
+  return all;
+}
+
+Picture Film::variances() const {
+  Picture variances(width_, height_);
+  forEachDone([&](const PixelSum& pixel, int x, int y) {
+    if (pixel.taken() > 1) variances.at(x, y) = Color(pixel.variance());
+  });
+  return variances;
+}
+
 Picture Film::layer(std::size_t number) const {
   const Layer& layer = layers_[number];
   Picture picture(width_, height_);
+  if (layer.kind.keep == Keep::counts) {
+    const auto all = shares(number);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!all[i].empty()) picture.pixels[i] = Color(all[i].front().number);
+    return picture;
+  }
   std::fill(picture.pixels.begin(), picture.pixels.end(), layer.kind.blank);
   if (corners_) {
     forEachDivided([&](int x, int y, int levels) {
@@ -284,7 +369,7 @@ Picture Film::layer(std::size_t number) const {
       Color& shown = picture.at(x, y);
       if (layer.kind.keep == Keep::sum) {
         shown = Color(static_cast<double>(corners_->countOf(x, y, static_cast<std::size_t>(levels))));
-      } else if (levels > 0 && layer.kind.keep == Keep::mean) {
+      } else if (levels > 0 && layer.kind.keep != Keep::first) {
         shown = meanOver(corners_->rules(), levels - 1, corners_->of(x, y), value);
       } else {
         shown = value(Corner{});
@@ -295,7 +380,9 @@ Picture Film::layer(std::size_t number) const {
   forEachDone([&](const PixelSum& pixel, int x, int y) {
     if (pixel.taken() == 0) return;
     const Color& sum = layer.sums.at(x, y);
-    picture.at(x, y) = layer.kind.keep == Keep::mean ? sum / pixel.taken() : sum;
+    picture.at(x, y) = layer.kind.keep == Keep::mean       ? sum / pixel.taken()
+                       : layer.kind.keep == Keep::weighted ? pixel.colors().meanOf(sum, layer.below.at(x, y))
+                                                           : sum;
   });
   return picture;
 }

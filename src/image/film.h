@@ -56,6 +56,12 @@ class WeightedMean {
     if (usesAll()) return weights_ != 0 ? sum_ / weights_ : Color(0);
     return above_ / weightsAbove_;
   }
+  /// The mean of another value of the same samples: of the sum of weight times value, and the part of it with
+  /// weights below 0. Values that sum to the colour have means that sum to mean().
+  Color meanOf(const Color& sum, const Color& below) const {
+    if (usesAll()) return weights_ != 0 ? sum / weights_ : Color(0);
+    return (sum + below * -1) / weightsAbove_;
+  }
   /// Without those that are among them.
   WeightedMean without(const WeightedMean& part) const {
     WeightedMean rest = *this;
@@ -180,11 +186,13 @@ class Film {
  public:
   static constexpr int kTileSize = 32;  ///< in pixels, of a side
 
-  /// The way in which a layer keeps a pixel's samples.
-  enum class Keep { first, mean, sum };
+  /// The way in which a layer keeps a pixel's samples. weighted: as the colour is kept, so that parts of the
+  /// colour sum to it. counts: how many samples have each number, which is the red of their value.
+  enum class Keep { first, mean, sum, weighted, counts };
   struct LayerKind {
     Color blank;  ///< the value wherever nothing is rendered
     Keep keep = Keep::first;
+    std::uint32_t numbers = 0;  ///< for Keep::counts: they go from 1 to this one; 0 is not counted
   };
 
   /// For a picture of that many samples a pixel, or of fewer where PixelSum::settles(noise) and isSure().
@@ -272,8 +280,19 @@ class Film {
   Color ofSplats(int x, int y) const;
   /// The mean of what is there so far, black elsewhere. From any thread while others add.
   Picture picture() const;
-  /// The picture of a layer, blank elsewhere.
+  /// The picture of a layer, blank elsewhere. Of Keep::counts the number that most samples have.
   Picture layer(std::size_t number) const;
+  /// The share of a pixel that has a number.
+  struct Share {
+    std::uint32_t number;
+    double share;
+    bool operator==(const Share&) const = default;
+  };
+  /// Shares of each pixel in a layer of Keep::counts, the largest first, and the lower number first of
+  /// equal ones.
+  std::vector<std::vector<Share>> shares(std::size_t number) const;
+  /// PixelSum::variance() of each pixel with two samples or more, 0 elsewhere. From any thread.
+  Picture variances() const;
   /// How many samples each pixel has. From any thread.
   Picture sampleCounts() const;
   /// PixelSum::error() of each pixel with two samples or more, 0 elsewhere. From any thread.
@@ -290,10 +309,18 @@ class Film {
 
  private:
   friend class FilmState;
+  struct Count {
+    std::uint32_t number, count;
+  };
   struct Layer {
     LayerKind kind;
-    Picture sums;  ///< or the first values
+    Picture sums;                              ///< or the first values; empty for Keep::counts
+    Picture below{};                           ///< for Keep::weighted: the part of samples of weights below 0
+    std::vector<std::vector<Count>> counts{};  ///< for Keep::counts
   };
+  /// Adds samples that are all of one wave to a pixel's layer.
+  void addToLayer(Layer& layer, std::size_t pixel, const TileSamples& samples,
+                  const std::vector<Color>* values, std::size_t first, std::size_t end, bool isFirstWave);
   struct TileState {
     mutable std::mutex mutex;
     std::size_t waves = 0;                     ///< that are summed

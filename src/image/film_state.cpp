@@ -100,6 +100,27 @@ class FilmState {
     mean.weightsAbove_ = alike ? mean.weights_ : from.take<double>();
   }
 
+  static void put(Writer& to, const Film::Layer& layer, std::size_t pixel) {
+    if (layer.kind.keep == Film::Keep::counts) return putAll(to, layer.counts[pixel]);
+    to.put(layer.sums.pixels[pixel]);
+    if (layer.kind.keep == Film::Keep::weighted) to.put(layer.below.pixels[pixel]);
+  }
+  /// Reads a layer of a pixel with so many samples.
+  static void take(Reader& from, Film::Layer& layer, std::size_t pixel, int samples) {
+    if (layer.kind.keep == Film::Keep::counts) {
+      takeAll(from, layer.counts[pixel]);
+      std::int64_t counted = 0;
+      for (const auto& [number, count] : layer.counts[pixel]) {
+        if (number < 1 || number > layer.kind.numbers) throw std::runtime_error("it counts unknown numbers");
+        counted += count;
+      }
+      if (counted > samples) throw std::runtime_error("it counts more samples than a pixel has");
+      return;
+    }
+    layer.sums.pixels[pixel] = from.take<Color>();
+    if (layer.kind.keep == Film::Keep::weighted) layer.below.pixels[pixel] = from.take<Color>();
+  }
+
   static void put(Writer& to, const SplatPlane& splats) {
     to.put(splats.paths_);
     for (const SplatPlane::Sum& sum : splats.sums_) to.put(sum);
@@ -257,7 +278,7 @@ class FilmState {
         for (int x = area.x0; x < area.x1; ++x) {
           put(to, film.pixels_[film.index(x, y)]);
           if (film.noise_ > 0) to.put(film.pixels_[film.index(x, y)].firstError_);
-          for (const Film::Layer& layer : film.layers_) to.put(layer.sums.at(x, y));
+          for (const Film::Layer& layer : film.layers_) put(to, layer, film.index(x, y));
           if (film.keepsHalves()) put(to, film.first_[film.index(x, y)]);
         }
     }
@@ -292,7 +313,7 @@ class FilmState {
         checkTaken(film, pixel, there);
         if (film.noise_ > 0) pixel.firstError_ = from.take<float>();
         if (!(pixel.firstError_ >= 0)) throw std::runtime_error("an error is negative or no number");
-        for (Film::Layer& layer : film.layers_) layer.sums.at(x, y) = from.take<Color>();
+        for (Film::Layer& layer : film.layers_) take(from, layer, film.index(x, y), pixel.taken_);
         if (film.keepsHalves()) take(from, film.first_[film.index(x, y)]);
       }
   }
@@ -368,8 +389,11 @@ class FilmState {
   static void clear(Film& film, std::vector<Wave> waves) {
     film.waves_ = std::move(waves);
     std::fill(film.pixels_.begin(), film.pixels_.end(), PixelSum{});
-    for (Film::Layer& layer : film.layers_)
+    for (Film::Layer& layer : film.layers_) {
       std::fill(layer.sums.pixels.begin(), layer.sums.pixels.end(), Color(0));
+      std::fill(layer.below.pixels.begin(), layer.below.pixels.end(), Color(0));
+      for (auto& counts : layer.counts) counts.clear();
+    }
     for (std::int64_t i = 0; i < film.tiles(); ++i) film.states_[static_cast<std::size_t>(i)].waves = 0;
     std::fill(film.first_.begin(), film.first_.end(), WeightedMean{});
     if (film.takesSplats()) film.takeSplats();

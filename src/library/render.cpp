@@ -113,10 +113,8 @@ const Image& Render::pass(const std::string& name) const {
     const trace::Settings& settings = state_->session.settings();
     for (const trace::PassRow* row : passesOf(settings)) {
       if (row->name != name) continue;
-      const int layer = layerOf(settings, row->name);
-      const trace::Picture& light = state_->light();
-      const trace::Picture values = layer < 0 ? change(*state_->rendered, light)
-                                              : state_->session.film().layer(static_cast<std::size_t>(layer));
+      const trace::Picture values =
+          valuesOf(*row, state_->session.film(), settings, state_->session.names(), state_->light());
       return state_->passes.emplace(name, imageOf(values)).first->second;
     }
     std::string known;

@@ -81,14 +81,15 @@ constexpr std::array<std::string_view, 2> kNames<Rounding>{"truncate", "nearest"
 template <>
 constexpr std::array<std::string_view, 4> kNames<EnvironmentKind>{"auto", "lat-long", "angular", "cube"};
 template <>
-constexpr std::array<std::string_view, 9> kNames<Pass>{"depth",   "normal", "id",        "uv",    "position",
-                                                       "samples", "albedo", "occlusion", "change"};
+constexpr std::array<std::string_view, 15> kNames<Pass>{
+    "depth",  "normal", "id",       "uv",     "position", "samples", "albedo",  "occlusion",
+    "change", "object", "material", "direct", "indirect", "motion",  "variance"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<PassColors>{"grey", "heat"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<PassName>{"dot", "underscore"};
 template <>
-constexpr std::array<std::string_view, 3> kNames<PassFormat>{"exr", "png", "same"};
+constexpr std::array<std::string_view, 4> kNames<PassFormat>{"exr", "png", "same", "layers"};
 template <>
 constexpr std::array<std::string_view, 2> kNames<PassDepth>{"view", "ray"};
 
@@ -124,6 +125,7 @@ std::span<const std::string_view> namesOf() {
 }
 
 constexpr std::string_view kNone = "none";  // an empty set; also no file
+constexpr std::string_view kAll = "all";    // a full one
 
 // --- values from and to text --------------------------------------------------------------------------
 
@@ -241,16 +243,18 @@ void parse(const Option& option, std::string_view text, Enum& value) {
   value = *found;
 }
 
-/// Names with commas between, or "none".
+/// Names with commas between, "none", or "all".
 template <class Enum>
 void parse(const Option& option, std::string_view text, EnumSet<Enum>& value) {
   EnumSet<Enum> set;
-  for (std::string_view rest = text; text != kNone;) {
+  const bool all = text == kAll;
+  for (size_t i = 0; all && i < namesOf<Enum>().size(); ++i) set.add(static_cast<Enum>(i));
+  for (std::string_view rest = text; text != kNone && !all;) {
     const std::string_view name = rest.substr(0, rest.find(','));
     const std::optional<Enum> found = named<Enum>(name);
     if (!found)
-      refuse(option, "none, or some of " + alternatives(namesOf<Enum>(), ",") + " with commas between", text,
-             didYouMean(name, namesOf<Enum>()));
+      refuse(option, "none, all, or some of " + alternatives(namesOf<Enum>(), ",") + " with commas between",
+             text, didYouMean(name, namesOf<Enum>()));
     set.add(*found);
     if (name.size() == rest.size()) break;
     rest.remove_prefix(name.size() + 1);
@@ -1165,6 +1169,13 @@ const std::array kOptions{
                             .source = "docs/tone.md",
                             .repeats = Repeats::tone,
                             .extra = true}),
+    row<&Settings::alpha>(
+        {.name = "alpha",
+         .group = "Passes",
+         .help =
+             "the environment behind the scene is transparent: .png and .exr store the alpha of each pixel",
+         .source = "docs/passes.md",
+         .repeats = Repeats::world}),
     row<&Settings::passes>({.name = "passes",
                             .group = "Passes",
                             .help = "additional pictures of what the camera rays hit",
@@ -1172,7 +1183,9 @@ const std::array kOptions{
     row<&Settings::passFormat>(
         {.name = "pass-format",
          .group = "Passes",
-         .help = "files of passes: raw values (exr), levels for viewing (png), or the picture's format",
+         .help =
+             "files of passes: raw values (exr), levels for viewing (png), or the picture's format; or no "
+             "files but layers of the picture, an .exr",
          .source = "",
          .repeats = Repeats::nothing}),
     row<&Settings::passName>({.name = "pass-name",

@@ -53,15 +53,31 @@ enum class ShapeKind {};
 enum class SceneFeature {};
 
 /// A picture beside the picture: a row of render/picture/passes.cpp.
-enum class Pass { depth, normal, id, uv, position, samples, albedo, occlusion, change };
+enum class Pass {
+  depth,
+  normal,
+  id,
+  uv,
+  position,
+  samples,
+  albedo,
+  occlusion,
+  change,
+  object,
+  material,
+  direct,
+  indirect,
+  motion,
+  variance
+};
 /// The distance in the pass "depth": along the view direction, or along the ray.
 enum class PassDepth { view, ray };
 /// How files of passes are called: NAME.PASS.exr or NAME_PASS.exr.
 enum class PassName { dot, underscore };
 /// The look of levels of passes that are numbers.
 enum class PassColors { grey, heat };
-/// The file format of passes; same: that of the picture.
-enum class PassFormat { exr, png, same };
+/// The file format of passes; same: that of the picture; layers: in the file of the picture.
+enum class PassFormat { exr, png, same, layers };
 
 /// Pixels x0 <= x < x1, y0 <= y < y1, counted from the top left; empty means the whole picture.
 struct Region {
@@ -199,6 +215,7 @@ struct Settings {
   Real bloom = 0;
   bool dither = false;
   // Passes
+  bool alpha = false;
   EnumSet<Pass> passes{};
   PassFormat passFormat = PassFormat::exr;
   PassName passName = PassName::dot;

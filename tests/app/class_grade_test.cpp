@@ -1,5 +1,5 @@
 // A class: whose file is which reference's, points, causes, what is kept between runs, and the page.
-#include "app/compare/class_grade.h"
+#include "app/grading/class_grade.h"
 
 #include <gtest/gtest.h>
 

@@ -208,12 +208,16 @@ TEST(Passes, AreShownFromZeroToOne) {
   Settings settings{.width = 40, .height = 40};
   for (const PassRow& row : passRows()) settings.passes.add(row.pass);
   const std::vector<Picture> all = layers(scene, settings);
+  const std::vector<const PassRow*> rows = layersOf(settings);
+  ASSERT_EQ(rows.size(), all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const ValueRange range = finiteRange(passRows()[i].shown(all[i], settings));
-    EXPECT_GE(range.low, 0) << passRows()[i].name;
-    EXPECT_LE(range.high, 1) << passRows()[i].name;
-    if (passRows()[i].pass == Pass::samples) continue;  // all pixels have one
-    EXPECT_GT(range.high - range.low, 0.1) << passRows()[i].name;
+    const ValueRange range = finiteRange(rows[i]->shown(all[i], settings));
+    EXPECT_GE(range.low, 0) << rows[i]->name;
+    EXPECT_LE(range.high, 1) << rows[i]->name;
+    // All pixels have one sample, and without names and motion there is nothing to see.
+    constexpr EnumSet<Pass> kEven{Pass::samples, Pass::object, Pass::material, Pass::motion};
+    if (kEven.has(rows[i]->pass)) continue;
+    EXPECT_GT(range.high - range.low, 0.1) << rows[i]->name;
   }
 }
 

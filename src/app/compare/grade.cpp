@@ -8,6 +8,7 @@
 
 #include "app/compare/diff_cause.h"
 #include "app/compare/grade_files.h"
+#include "app/compare/scene_cause.h"
 #include "app/session/session.h"
 #include "base/budget.h"
 #include "base/parallel.h"
@@ -100,6 +101,7 @@ void compareInto(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
       difference(loadPicture(reference),
                  task.renderScenes ? renderedScene(test, task, inputs) : loadPicture(test), task.difference);
   judge(pair, d, task.limits);
+  addSceneCause(pair, d, task, inputs);
   if (task.keepsPictures) addPictures(pair, d, task.magnify);
 }
 
@@ -225,6 +227,35 @@ void judge(GradedPair& pair, const PictureDifference& d, const std::vector<Limit
   if (!cause) return;
   pair.cause = causeText(*cause, "the reference", "the picture", d.unit());
   pair.mistakes = mistakesOf(cause->change);
+}
+
+std::string sceneOf(const GradeTask& task, const std::string& reference) {
+  if (task.scenes.empty()) return "";
+  const std::string wanted = lowerCase(stemOf(reference));
+  std::string found;
+  for (const fs::path& file : filesBelow(task.scenes, sceneKind).files)
+    if (const std::string stem = lowerCase(stemOf(file)); stem == wanted && found.empty())
+      found = (task.scenes / file).string();
+  return found;
+}
+
+std::string addSceneCause(GradedPair& pair, const PictureDifference& d, const GradeTask& task,
+                          InputFiles& inputs) {
+  const std::string scene = sceneOf(task, pair.name);
+  if (scene.empty() || passes(pair.verdict) || !d.numbers.sameSize) return scene;
+  const auto causes = sceneCauses({.file = scene, .choices = task.choices, .strict = task.strict},
+                                  d.reference, d.test, {d.numbers.worstX, d.numbers.worstY});
+  if (!causes) return scene;
+  inputs = causes->inputs;
+  const bool isNamed = causes->test && !causes->test->variants.empty();
+  if (isNamed) {  // it says more than a change of the whole picture
+    pair.cause = sceneSentences(*causes, "the reference", "the picture").front();
+    pair.mistakes = mistakesOf(causes->test->change);
+    pair.mistakes.insert(pair.mistakes.begin(), causes->test->variants.begin(), causes->test->variants.end());
+  } else if (pair.cause.empty() && causes->pixel) {
+    pair.cause = sceneSentences(*causes, "the reference", "the picture").back();
+  }
+  return scene;
 }
 
 void judgeOrNote(GradedPair& pair, const std::function<void()>& compare) {

@@ -22,6 +22,7 @@ struct GradeTask {
   bool keepsPictures = true;  ///< for a page
   std::string page{};         ///< the file to be written, which must be none of those read; "" for none
   double sceneLimit = 0;      ///< seconds that reading and rendering a scene may take; 0 for no limit
+  std::string scenes{};       ///< folder of the scenes that the references show; "" if it is not known
 };
 
 /// The verdict on one reference picture. The order is from worst to best.
@@ -38,7 +39,8 @@ struct GradedPair {
   std::vector<std::string> mistakes{};  ///< the parts of that cause: "flipped", "gamma" (mistakeNames())
   std::string unit;                     ///< "levels" or "values"
   int width = 0, height = 0;
-  std::vector<double> values;  ///< values of metrics(), in their order; empty if it could not be compared
+  std::vector<double> values;    ///< values of metrics(), in their order; empty if it could not be compared
+  double cpu = -1, ourCpu = -1;  ///< seconds of the student's program and of Trace; below 0: not measured
   /// Picture files: PNG for the first two, JPEG for the others; empty where there is none.
   std::string referencePicture, testPicture, heatPicture, flipPicture;
 };
@@ -57,6 +59,14 @@ Grades grade(const GradeTask& task);
 
 /// Fills in the comparison of two pictures: numbers, verdict and, of a failure, the cause.
 void judge(GradedPair& pair, const PictureDifference& difference, const std::vector<Limit>& limits);
+
+/// Adds what variants of the scene show of a failure to the cause, if a scene of the task has the name of the
+/// reference. Returns that scene; "" for none. `inputs` receives the files that it read.
+std::string addSceneCause(GradedPair& pair, const PictureDifference& difference, const GradeTask& task,
+                          InputFiles& inputs);
+
+/// The scene in the folder of scenes that has the name of the reference; "" if there is none.
+std::string sceneOf(const GradeTask& task, const std::string& reference);
 
 /// Calls `compare`; what it throws is the verdict on the pair, unless the time of all is over.
 void judgeOrNote(GradedPair& pair, const std::function<void()>& compare);

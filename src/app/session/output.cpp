@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "app/session/denoising.h"
+#include "app/session/picture_layers.h"
 #include "app/session/version.h"
 #include "base/budget.h"
 #include "base/error.h"
@@ -59,29 +60,6 @@ Settings plainOf(Settings settings) {
   settings.bloom = 0;
   settings.passes = {};
   return settings;
-}
-
-/// Calls use(picture) with what the file is to hold. `shown` is the film's picture, perhaps without noise.
-template <class Use>
-void withPictureOf(const Output& output, const Film& film, const Picture& shown, const Settings& settings,
-                   Use use) {
-  const Work work(output.pass.empty() ? "developing the picture" : "making the passes");
-  const PictureFormat& format = pictureFormatFor(output.path);
-  if (output.pass.empty()) {
-    const Picture picture = finished(shown, settings);
-    const Development development = developmentOf(settings);
-    if (format.keepsBright || development == Development{})
-      use(picture);
-    else
-      use(developed(picture, development));
-    return;
-  }
-  const Picture values =
-      output.layer < 0 ? change(film.picture(), shown) : film.layer(static_cast<std::size_t>(output.layer));
-  const bool raw = format.keepsBright && format.lossless;  // Radiance has no negative and no infinite values
-  if (raw) return use(values);
-  for (const PassRow* row : passesOf(settings))
-    if (row->name == output.pass) use(row->shown(values, settings));
 }
 
 /// A device or a pipe holds nothing: it takes what comes.
@@ -150,6 +128,8 @@ bool keepsWords(const std::string& path) {
 
 std::vector<Output> outputs(const std::string& path, const Settings& settings) {
   std::vector<Output> all{{path, -1, ""}};
+  checkHoldsLayers(path, settings);
+  if (settings.passFormat == PassFormat::layers) return all;
   for (const PassRow* pass : passesOf(settings))
     all.push_back({passFile(path, pass->name, settings.passFormat, settings.passName),
                    layerOf(settings, pass->name), pass->name});
@@ -258,10 +238,13 @@ std::string PictureFiles::write(const Film& film, const Settings& wanted, const 
     if (!whole)
       words.emplace_back(kIncomplete, finish == LastSteps::all ? "the render was stopped"
                                                                : "the last steps of the render were stopped");
-    withPictureOf(output, film, shown, settings, [&](const Picture& picture) {
-      const Work work("writing the picture");
-      writePicture(output.path, picture, settings.rounding, words);
-    });
+    std::string bytes;
+    {
+      const Work work(output.pass.empty() ? "developing the picture" : "making the passes");
+      bytes = encodedOutput(output, {film, shown, settings, wanted, names_}, words);
+    }
+    const Work work("writing the picture");
+    writeFile(output.path, bytes);
     written_.push_back(output.path);
   }
   const BudgetScope unlimited(nullptr);  // all is there

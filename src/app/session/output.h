@@ -8,6 +8,7 @@
 
 #include "image/film.h"
 #include "image/metadata.h"
+#include "render/picture/pass_facts.h"
 #include "render/picture/render.h"
 #include "scene/scene.h"
 #include "scene/settings.h"
@@ -21,7 +22,7 @@ struct Output {
 };
 
 /// The picture at `path` first, then "NAME.PASS.exr" and the like beside it, in the order of the table of
-/// passes.
+/// passes, unless they are layers of the picture. Throws Error(Fault::usage) if it cannot hold these.
 std::vector<Output> outputs(const std::string& path, const Settings& settings);
 
 /// Whether a picture file of that name has room for words, such as how it was made.
@@ -57,7 +58,9 @@ enum class LastSteps {
 class PictureFiles {
  public:
   /// `inputs` are the files that a fragment must not replace either.
-  PictureFiles(std::string path, InputFiles inputs) : path_(std::move(path)), inputs_(std::move(inputs)) {}
+  /// `names` are those that the film was made with.
+  PictureFiles(std::string path, InputFiles inputs, PassNames names = {})
+      : path_(std::move(path)), inputs_(std::move(inputs)), names_(std::move(names)) {}
 
   const std::string& path() const { return path_; }
 
@@ -89,6 +92,7 @@ class PictureFiles {
 
   std::string path_;
   InputFiles inputs_;
+  PassNames names_;
   std::string fragment_;  ///< where this has put one; "" before
   std::vector<std::string> removed_, written_;
   std::optional<double> change_;

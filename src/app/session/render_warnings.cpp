@@ -13,6 +13,7 @@
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
 #include "render/lights/lamps.h"
+#include "render/picture/passes.h"
 #include "render/picture/render.h"
 #include "scene/groups.h"
 #include "scene/integrators.h"
@@ -136,6 +137,10 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
            namesOfIntegrators(option.integrators) + ", and --integrator is " + integrator);
   }
 
+  if ((s.passes.has(Pass::direct) || s.passes.has(Pass::indirect)) && !splitsLight(s))
+    warn("--integrator " + integrator +
+             " cannot split the light by its sources: the passes direct and indirect are left out",
+         "--integrator path, photon and whitted can");
   for (const Serves& row : kServes) {  // but not where the scene has both, and somebody switched one off
     const bool given = findOption(row.option).get(s) != findOption(row.option).get({});
     const bool otherwise = (row.needed == "caustics" && traits.has(Trait::photons)) ||

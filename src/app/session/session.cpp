@@ -1,8 +1,10 @@
 #include "app/session/session.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <fstream>
+#include <iterator>
 
 #include "app/session/auto_exposure.h"
 #include "app/session/render_warnings.h"
@@ -16,6 +18,7 @@
 #include "render/maps/photon_map.h"
 #include "render/picture/passes.h"
 #include "scene/integrators.h"
+#include "scene/picture_size.h"
 #include "scene/quality.h"
 
 #if defined(__unix__) || defined(__APPLE__)
@@ -40,10 +43,12 @@ class Stopwatch {
 
 /// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
 /// in the encoder's buffers.
-std::uint64_t bytesPerPixel(const Settings& settings) {
+std::uint64_t bytesPerPixel(const Settings& settings, const PassNames& names) {
   const std::uint64_t splats = hasTrait(settings, Trait::splats) ? SplatPlane::bytesPerPixel() : 0;
   // Two corners and their keys, as many as a picture with edges has.
-  const std::size_t layers = layersOf(settings).size();
+  const std::size_t ofPasses = layersOf(settings).size();
+  const auto all = static_cast<std::size_t>(lightLayersOf(settings, names.groups.size()).end);
+  const std::size_t layers = ofPasses + 2 * (all - ofPasses);  // Keep::weighted has two pictures
   const std::uint64_t corners = subdivides(settings) ? 2 * ((layers + 1) * sizeof(Color) + 16) : 0;
   const std::uint64_t planes = settings.denoise ? denoisingBytesPerPixel() : 0;
   return Film::bytesPerPixel(layers, settings.denoise) + splats + corners + planes + 2 * sizeof(Color) + 16;
@@ -64,6 +69,13 @@ std::uint64_t photonBytes(const Settings& settings) {
 bool isSameAs(const Scene& a, const Scene& b) {
   return a.camera == b.camera && a.objects == b.objects && a.lights == b.lights &&
          a.materials == b.materials && a.background == b.background;
+}
+
+/// Whether a pass tells parts of the scene apart by their names, or by where they move.
+bool namesItsParts(const Settings& settings) {
+  constexpr Pass kNaming[] = {Pass::object, Pass::material, Pass::direct, Pass::indirect, Pass::motion};
+  return std::any_of(std::begin(kNaming), std::end(kNaming),
+                     [&](Pass pass) { return settings.passes.has(pass); });
 }
 
 PictureLimits pictureLimits(const Settings& settings) { return {.memory = allowedMemory(settings)}; }
@@ -122,7 +134,7 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   if (budgetOfThread.budget) budgetOfThread.budget->letFinish(false);
   strict_ = strict;
   messages_ = {};
-  const std::string bytes = readFile(file);
+  const std::string bytes = readFile(file == kStandardInput ? "/dev/stdin" : file);
   SceneAtMoment read = readSceneAtItsMoment(file, bytes, choices, messages_);
   scene_ = std::move(read.scene);
   completeBareMesh(scene_);
@@ -152,8 +164,9 @@ void Session::open(Scene scene, const Settings& settings, SceneAt sceneAt) {
 }
 
 void Session::compileWorld(const Session* before) {
+  names_ = namesItsParts(settings_) ? passNames(scene_) : PassNames{};
   const Size picture = size();
-  checkMemory("a picture", picture, bytesPerPixel(settings_), settings_, photonBytes(settings_));
+  checkMemory("a picture", picture, bytesPerPixel(settings_, names_), settings_, photonBytes(settings_));
   readSurroundings(scene_, settings_, pictureLimits(settings_), messages_,
                    before ? &before->scene_.surroundings : nullptr);
   if (before) {
@@ -164,11 +177,21 @@ void Session::compileWorld(const Session* before) {
   }
 }
 
+const PassFacts* Session::factsOf(const Scene& scene, Real time) {
+  if (names_.empty()) return nullptr;
+  PassFacts& facts = facts_.emplace_back(passFacts(scene, names_));
+  if (!settings_.passes.has(Pass::motion) || !sceneAt_) return &facts;
+  const Scene later = sceneAt_(time + 1 / framesPerSecond_);
+  const CameraFrame camera = frame(cameraFor(later, settings_), settings_.cameraAxes, opticsOf(settings_));
+  facts.motion = std::make_shared<const Motion>(motionBetween(scene, later, camera));
+  return &facts;
+}
+
 void Session::prepareFilm() {
   messages_.throwIfFailed(strict_);
   measuredExposure_ = settleExposure(*world_, settings_);
   const Size picture = size();
-  film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height));
+  film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height, names_));
 }
 
 void Session::build(const Session* before) {
@@ -195,15 +218,16 @@ void Session::buildMoments() {
   scenes_.clear();
   worlds_.clear();
   integrators_.clear();
-  const auto add = [&](const World& world, const Settings& settings) {
+  facts_.clear();
+  const auto add = [&](const World& world, const Settings& settings, const Scene& scene, Real time) {
     integrators_.push_back(makeIntegrator(world, settings, job_));
-    moments_.push_back({&world, integrators_.back().get()});
+    moments_.push_back({&world, integrators_.back().get(), factsOf(scene, time)});
   };
   if (settings_.shutter > 0 && !sceneAt_)
     messages_.warn(Place{.file = scene_.file},
                    "nothing in the scene changes with time: --shutter blurs nothing",
                    "docs/animation.md describes animation");
-  if (!(settings_.shutter > 0) || !sceneAt_) return add(*world_, settings_);
+  if (!(settings_.shutter > 0) || !sceneAt_) return add(*world_, settings_, scene_, settings_.time);
   Work work("building the moments of the shutter", settings_.moments);
   const Scene* before = &scene_;
   const World* built = &*world_;
@@ -220,7 +244,7 @@ void Session::buildMoments() {
     built = &worlds_.back();
     before = &scene;
     own.seed = settings_.seed ^ (moment << 16);
-    add(*built, own);
+    add(*built, own, scene, timeOfMoment(settings_, moment));
     work.reached(moment + 1);
   }
   if (!moves)

@@ -43,6 +43,9 @@ SceneAtMoment readSceneAtItsMoment(const std::string& file, std::string_view byt
 /// Reads the scene once more, as it is at a time.
 using SceneAt = std::function<Scene(Real time)>;
 
+/// The name of a scene that is read from the standard input.
+inline constexpr std::string_view kStandardInput = "-";
+
 class Session {
  public:
   /// Reads the scene and settles the settings: defaults < file < choices.
@@ -94,7 +97,10 @@ class Session {
   /// How the picture is made, in words: those of describe(), and Scene, the fingerprint of the files read.
   Metadata metadata() const;
   /// The files of a picture of that name, for save().
-  PictureFiles filesFor(const std::string& path) const { return {path, scene_.inputs}; }
+  PictureFiles filesFor(const std::string& path) const { return {path, scene_.inputs, names_}; }
+  /// The frame after this one is shown so much later: for the pass `motion`. Before build().
+  void setFramesPerSecond(Real rate) { framesPerSecond_ = rate; }
+  const PassNames& names() const { return names_; }
   /// Writes them, and returns the picture's name; not while renderPicture() runs, since both note their time.
   /// Throws Error(Fault::io), Error(Fault::usage), and what the budget of the thread throws.
   std::string save(PictureFiles& files, LastSteps finish = LastSteps::all);
@@ -113,6 +119,7 @@ class Session {
   void compileWorld(const Session* before);
   void prepareFilm();
   void buildMoments();
+  const PassFacts* factsOf(const Scene& scene, Real time);
 
   Scene scene_;
   SceneAt sceneAt_;  // null of a scene that does not change
@@ -124,6 +131,9 @@ class Session {
   std::vector<Moment> moments_;
   std::list<Scene> scenes_;  // the scenes of the moments, if there are several
   std::list<World> worlds_;
+  PassNames names_;             // empty unless a pass wants them
+  std::list<PassFacts> facts_;  // facts of the moments, likewise
+  Real framesPerSecond_ = 24;
   std::list<std::unique_ptr<const Integrator>> integrators_;
   std::unique_ptr<Film> film_;
   Job job_;

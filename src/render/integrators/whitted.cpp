@@ -245,7 +245,7 @@ void Whitted::addLamps(Gather& sum, const Interaction& at, bool glossy, const Sa
     if (!tracer.world().media().empty())
       passed = throughBodies(tracer, passed, toLamp, place->distance,
                              sampler.branch(Branch::whittedToLamp).branch(static_cast<std::uint32_t>(n)));
-    sum.add(Term::Kind::lamp, scattered, passed, {place->density, 0, 1});
+    sum.add(Term::Kind::lamp, scattered, passed, {place->density, 0, 1, place->object});
   }
 }
 

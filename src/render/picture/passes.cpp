@@ -118,6 +118,42 @@ Color occlusionValue(const PassPlace& at) {
   return open.radiance();
 }
 
+Color objectValue(const PassPlace& at) {
+  return Color(at.facts && at.hit.object < at.facts->objects.size() ? at.facts->objects[at.hit.object] : 0);
+}
+/// The material with the largest share.
+Color materialValue(const PassPlace& at) {
+  const MaterialMix& mix = at.hit.materials;
+  int most = 0;
+  for (int i = 1; i < mix.count; ++i)
+    if (mix.weight[i] > mix.weight[most]) most = i;
+  const std::uint32_t material = mix.material[most];
+  return Color(at.facts && material < at.facts->materials.size() ? at.facts->materials[material] : 0);
+}
+
+/// In pixels to the right and up.
+Color motionValue(const PassPlace& at) {
+  const Motion* motion = at.facts ? at.facts->motion.get() : nullptr;
+  if (!motion || at.hit.object >= motion->objects.size() || !motion->objects[at.hit.object]) return Color(0);
+  const Vec3 point = at.hit.surface.point;
+  const auto now = at.tracer.world().camera().placeOf(point);
+  const auto then = motion->camera.placeOf(*motion->objects[at.hit.object] * point);
+  if (!now || !then) return Color(0);
+  const Color moved{(then->x - now->x) * at.size.width, (then->y - now->y) * at.size.height, 0};
+  return isFinite(moved) ? moved : Color(0);
+}
+/// Grey where nothing moves; 64 pixels are all of red and green.
+Picture motionShown(const Picture& values, const Settings&) {
+  constexpr double kMost = 64;
+  return mapped(values, [](const Color& c) {
+    return clamp01(Color(0.5 + 0.5 * c.r / kMost, 0.5 + 0.5 * c.g / kMost, 0.5));
+  });
+}
+
+Picture lightShown(const Picture& values, const Settings& settings) {
+  return developed(values, developmentOf(settings));
+}
+
 /// In levels of 255: what is removed from a pixel at most of a channel.
 Picture changeShown(const Picture& values, const Settings& settings) {
   constexpr double kWhite = 16;  // levels
@@ -125,6 +161,11 @@ Picture changeShown(const Picture& values, const Settings& settings) {
     return Color(255 / kWhite * std::max({std::abs(c.r), std::abs(c.g), std::abs(c.b)}));
   };
   return coloured(mapped(values, [&](const Color& c) { return clamp01(level(c)); }), settings);
+}
+
+/// The standard error of the pixel, in levels of 255.
+Picture varianceShown(const Picture& values, const Settings& settings) {
+  return changeShown(mapped(values, [](const Color& c) { return Color(std::sqrt(c.r)); }), settings);
 }
 
 /// 1 / depth has a mean where some samples hit nothing.
@@ -152,6 +193,21 @@ constexpr std::array kPasses{
             Color(1), Color(1), occlusionValue, plainShown},
     PassRow{Pass::change, "change", "the change by --denoise; shown by its size, 16 levels are white",
             Film::Keep::mean, Color(0), Color(0), nullptr, changeShown},
+    PassRow{Pass::object, "object", "mattes of the objects by their names (Cryptomatte); shown as colours",
+            Film::Keep::counts, Color(0), Color(0), objectValue, idShown},
+    PassRow{Pass::material, "material",
+            "mattes of the materials by their names (Cryptomatte); shown as colours", Film::Keep::counts,
+            Color(0), Color(0), materialValue, idShown},
+    PassRow{Pass::direct, "direct",
+            "the light that was scattered once at most; in layers by each light and emissive object",
+            Film::Keep::weighted, Color(0), Color(0), nullptr, lightShown},
+    PassRow{Pass::indirect, "indirect", "all other light, likewise: both sum to the picture",
+            Film::Keep::weighted, Color(0), Color(0), nullptr, lightShown},
+    PassRow{Pass::motion, "motion", "how far it moves until the next frame, in pixels to the right and up",
+            Film::Keep::first, Color(0), Color(0), motionValue, motionShown},
+    PassRow{Pass::variance, "variance",
+            "the variance of its mean luminance; shown by the standard error, 16 levels are white",
+            Film::Keep::mean, Color(0), Color(0), nullptr, varianceShown},
 };
 
 /// The other guides of denoising.
@@ -164,8 +220,11 @@ std::span<const PassRow> passRows() { return kPasses; }
 
 std::vector<const PassRow*> passesOf(const Settings& settings) {
   std::vector<const PassRow*> rows;
+  const auto isMade = [&](const PassRow& row) {
+    return (row.pass != Pass::direct && row.pass != Pass::indirect) || splitsLight(settings);
+  };
   for (const PassRow& row : kPasses)
-    if (settings.passes.has(row.pass)) rows.push_back(&row);
+    if (settings.passes.has(row.pass) && isMade(row)) rows.push_back(&row);
   return rows;
 }
 
@@ -186,10 +245,55 @@ int layerOf(const Settings& settings, std::string_view pass) {
   return found == rows.end() ? -1 : static_cast<int>(found - rows.begin());
 }
 
-Film makeFilm(const Settings& settings, int width, int height) {
+bool splitsLight(const Settings& settings) {
+  const Traits traits = traitsOf(settings);
+  return !traits.has(Trait::splats) && !traits.has(Trait::byChains) && !traits.has(Trait::showsData);
+}
+
+LightLayers lightLayersOf(const Settings& settings, std::size_t groups) {
+  LightLayers layers;
+  layers.end = static_cast<int>(layersOf(settings).size());
+  const auto take = [&](int& first, std::size_t count) {
+    first = layers.end;
+    layers.end += static_cast<int>(count);
+  };
+  if (groups > 0 && splitsLight(settings)) {
+    if (settings.passes.has(Pass::direct)) take(layers.direct, groups);
+    if (settings.passes.has(Pass::indirect)) take(layers.indirect, groups);
+  }
+  if (settings.alpha) take(layers.alpha, 1);
+  return layers;
+}
+
+Picture valuesOf(const PassRow& pass, const Film& film, const Settings& settings, const PassNames& names,
+                 const Picture& shown) {
+  if (pass.value) return film.layer(static_cast<std::size_t>(layerOf(settings, pass.name)));
+  if (pass.pass == Pass::variance) return film.variances();
+  if (pass.pass == Pass::change) {
+    Picture picture = film.picture();
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+      picture.pixels[i] = shown.pixels[i] + picture.pixels[i] * -1;
+    return picture;
+  }
+  const LightLayers layers = lightLayersOf(settings, names.groups.size());
+  const int first = pass.pass == Pass::direct ? layers.direct : layers.indirect;
+  Picture sum(film.width(), film.height());
+  for (std::size_t group = 0; first >= 0 && group < names.groups.size(); ++group) {
+    const Picture layer = film.layer(static_cast<std::size_t>(first) + group);
+    for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += layer.pixels[i];
+  }
+  return sum;
+}
+
+Film makeFilm(const Settings& settings, int width, int height, const PassNames& names) {
   std::vector<Film::LayerKind> layers;
-  for (const PassRow* row : layersOf(settings))
-    layers.push_back({row->keep == Film::Keep::sum ? Color(0) : row->background, row->keep});
+  for (const PassRow* row : layersOf(settings)) {
+    const auto numbers = row->pass == Pass::object ? names.objects.size() : names.materials.size();
+    layers.push_back({row->keep == Film::Keep::sum ? Color(0) : row->background, row->keep,
+                      static_cast<std::uint32_t>(numbers)});
+  }
+  const LightLayers light = lightLayersOf(settings, names.groups.size());
+  layers.resize(static_cast<std::size_t>(light.end), {Color(0), Film::Keep::weighted});
   const Traits traits = traitsOf(settings);
   Film film(width, height, samplesOf(settings), layers,
             traits.has(Trait::byChains) ? 0 : settings.noiseTarget);

@@ -14,7 +14,9 @@
 #include "math/noise.h"
 #include "render/chains/metropolis.h"
 #include "render/integrators/make_integrator.h"
+#include "render/picture/light_split.h"
 #include "render/picture/passes.h"
+#include "render/rays/fog.h"
 #include "render/samples/pixel.h"
 
 namespace trace {
@@ -25,6 +27,26 @@ std::int64_t pixelsIn(const Tile& area) {
 }
 bool isIn(const Tile& area, int x, int y) {
   return x >= area.x0 && x < area.x1 && y >= area.y0 && y < area.y1;
+}
+
+/// How much of what the camera ray sees is not the environment behind the scene. Glass and mirrors are
+/// opaque.
+Real alphaOf(const CameraRay& camera, bool weighsHoles, Tracer& tracer) {
+  constexpr int kMostHoles = 64;
+  Real through = 1;
+  Ray ray = camera.ray;
+  std::optional<Hit> hit = camera.hit;
+  Interfaces inside = camera.inside;
+  for (int k = 0; hit && k < kMostHoles; ++k) {
+    through *= weighsHoles ? 1 - hit->opacity : 0;
+    if (!(through > 0)) return 1;
+    ray = hit->leave(ray.direction);
+    hit = tracer.cast(ray, RayKind::refraction, inside);
+  }
+  if (hit || tracer.world().lampAlong(ray, kInfinity)) return 1;
+  const Fog fog(tracer.settings());
+  if (!fog.none() && isInOpenAir(inside, tracer.world())) through *= fog.passes(ray, kInfinity);
+  return 1 - through * (1 - camera.ink);
 }
 
 /// Takes the samples of tiles; what a worker does.
@@ -38,8 +60,18 @@ class TileRenderer {
         area_(areaOf(settings.region, {film.width(), film.height()})),
         passes_(layersOf(settings)),
         film_(film),
-        chains_(chains) {
-    if (film.layers() != passes_.size()) passes_.clear();
+        chains_(chains),
+        moments_(moments) {
+    const PassFacts* facts = moments.front().facts;
+    groups_ = facts ? facts->other + 1 : 0;
+    light_ = lightLayersOf(settings, groups_);
+    if (static_cast<int>(film.layers()) != light_.end) {
+      passes_.clear();
+      light_ = {};
+    }
+    if (light_.direct >= 0 || light_.indirect >= 0)
+      splitter_.emplace(moments, settings, Size{film.width(), film.height()}, &tree_);
+    hasLayers_ = !passes_.empty() || light_.end > 0;
     if (chains_) chainTracer_.emplace(chains_->tracer());
     throws_ = film.takesSplats() && !chains_;
   }
@@ -49,7 +81,7 @@ class TileRenderer {
     const bool own = film_.owns(tile);
     TileSamples samples{.area = own ? intersection(film_.tile(tile), area_) : Tile{0, 0, 0, 0},
                         .colors = {},
-                        .layers = std::vector<std::vector<Color>>(passes_.size())};
+                        .layers = std::vector<std::vector<Color>>(static_cast<std::size_t>(light_.end))};
     if (own)
       chains_           ? takeChain(tile, wave, samples)
       : film_.corners() ? takeCorners(wave, samples)
@@ -62,6 +94,7 @@ class TileRenderer {
   Statistics statistics() const {
     Statistics sum = tracer_.statistics();
     if (chainTracer_) sum += chainTracer_->statistics();
+    if (splitter_) sum += splitter_->statistics();
     sum.badSamples += badCount_;  // those of chains are counted already
     return sum;
   }
@@ -77,9 +110,10 @@ class TileRenderer {
         if (film_.settled(x, y)) continue;
         for (int k = wave.first; k < wave.end; ++k) {
           Real weight = 1;
-          const Color color = tracer_.sample(x, y, k, [&](const CameraRay& camera, const Sampler& sampler) {
+          tree_.nodes.clear();
+          const Color color = tracer().sample(x, y, k, [&](const CameraRay& camera, const Sampler& sampler) {
             weight = camera.weight;
-            if (!passes_.empty()) addPasses(camera, sampler, samples.layers);
+            if (hasLayers_) addPasses(camera, sampler, samples.layers);
           });
           if (weight != 1 && samples.weights.empty()) samples.weights.assign(samples.colors.size(), 1);
           if (weight != 1 || !samples.weights.empty()) samples.weights.push_back(weight);
@@ -134,9 +168,10 @@ class TileRenderer {
         for (const Corner corner : before.wanted(x, y, wave.first)) {
           const CornerPlace place{x, y, corner};
           samples.corners.push_back(corner);
+          tree_.nodes.clear();
           samples.colors.push_back(
-              tracer_.corner(place, [&](const CameraRay& camera, const Sampler& sampler) {
-                if (!passes_.empty()) addPasses(camera, sampler, samples.layers);
+              tracer().corner(place, [&](const CameraRay& camera, const Sampler& sampler) {
+                if (hasLayers_) addPasses(camera, sampler, samples.layers);
               }));
           if (!isFinite(samples.colors.back())) noteBad(numbered(before.userOf(place), wave.first));
         }
@@ -170,7 +205,7 @@ class TileRenderer {
     const std::uint64_t number = Metropolis::numberOf(tile, wave.first);
     const std::int64_t before = pixelsBefore(film_.tiles()) * wave.first + pixelsBefore(tile) * wave.count();
     samples.splats = chains_->chain(*chainTracer_, number, samples.paths, {}, before);
-    if (passes_.empty()) return;
+    if (!hasLayers_) return;
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x)
         for (int k = wave.first; k < wave.end; ++k)
@@ -179,13 +214,31 @@ class TileRenderer {
           });
   }
 
+  /// The one that records rays, where light is split by them.
+  PixelTracer& tracer() { return splitter_ ? *splitter_ : tracer_; }
+
   void addPasses(const CameraRay& camera, const Sampler& sampler, std::vector<std::vector<Color>>& layers) {
-    Tracer& tracer = tracer_.tracer();
+    PixelTracer& pixels = this->tracer();
+    Tracer& tracer = pixels.tracer();
+    const Moment& moment = moments_[pixels.moment()];
+    if (splitter_)  // first: rays of passes would be recorded too
+      splitLight(tree_, *moment.facts, groups_, split_);
     const bool tooNear = !camera.hit && tracer.tooNear(camera.ray);
     for (std::size_t i = 0; i < passes_.size(); ++i)
-      layers[i].push_back(camera.hit ? passes_[i]->value({camera, *camera.hit, tracer, sampler})
+      layers[i].push_back(camera.hit ? passes_[i]->value({camera, *camera.hit, tracer, sampler, moment.facts,
+                                                          Size{film_.width(), film_.height()}})
                           : tooNear  ? passes_[i]->tooNear
                                      : passes_[i]->background);
+    if (light_.alpha >= 0)
+      layers[static_cast<std::size_t>(light_.alpha)].push_back(
+          Color(alphaOf(camera, moment.integrator->weighsHoles(), tracer)));
+    if (!splitter_) return;
+    const auto put = [&](int first, const std::vector<Color>& parts) {
+      for (std::size_t group = 0; first >= 0 && group < groups_; ++group)
+        layers[static_cast<std::size_t>(first) + group].push_back(parts[group]);
+    };
+    put(light_.direct, split_.direct);
+    put(light_.indirect, split_.indirect);
   }
 
   void noteBad(const BadSample& sample) {
@@ -199,6 +252,13 @@ class TileRenderer {
   std::vector<const PassRow*> passes_;
   const Film& film_;
   const Metropolis* chains_;
+  const std::span<const Moment> moments_;
+  LightLayers light_;
+  std::size_t groups_ = 0;
+  RayTree tree_;  ///< rays of the last sample, for the splitter
+  LightSplit split_;
+  std::optional<PixelTracer> splitter_;  ///< takes the samples whose light is split
+  bool hasLayers_ = false;
   std::optional<PixelTracer> chainTracer_;
   std::vector<std::int64_t> pixelsBefore_;
   bool throws_ = false;         ///< samples bring light to other pixels, too

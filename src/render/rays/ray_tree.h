@@ -127,6 +127,9 @@ struct ChanceTerm {
   Real other = 0;  ///< density of the other strategy: light sampling for a bounced ray, the surface for a ray
                    ///< to a lamp
   Real share = 1;  ///< MIS weight of this strategy: the power heuristic (Veach 1997, section 9.2.4)
+  /// The emissive object of a light sample whose ray is a shadow ray: an index into Scene::objects, or kSky.
+  static constexpr std::uint32_t kSky = 0xffffffffu;
+  std::optional<std::uint32_t> lamp{};
 };
 
 /// Photons that were counted, and the radius of the disk in which they lie.

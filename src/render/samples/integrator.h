@@ -58,6 +58,7 @@ class Integrator {
 struct Moment {
   const World* world;
   const Integrator* integrator;
+  const struct PassFacts* facts = nullptr;  ///< for passes that need them: render/picture/pass_facts.h
 };
 
 }  // namespace trace

@@ -96,6 +96,8 @@ class PixelTracer {
 
   /// The tracer of the moment of the last sample.
   Tracer& tracer() { return tracers_[now_]; }
+  /// The number of that moment.
+  std::size_t moment() const { return now_; }
   /// That of a moment.
   Tracer& tracer(std::size_t moment) {
     now_ = moment;

@@ -43,7 +43,7 @@ class Outside {
 
   /// Rays of the kind see something there, though it may be black.
   bool isSeenBy(RayKind kind) const {
-    return kind == RayKind::camera || panorama_ || sky_ != Source::nothing;
+    return kind == RayKind::camera ? !transparent_ : panorama_ || sky_ != Source::nothing;
   }
   /// Its direction has length 1.
   View view(const Ray& ray, RayKind kind) const;
@@ -59,6 +59,7 @@ class Outside {
   std::shared_ptr<const Picture> backdrop_;
   std::shared_ptr<const EnvironmentMap> environment_;
   std::optional<Daylight> daylight_;
+  bool transparent_ = false;      ///< camera rays see nothing: the picture is transparent there
   bool panorama_ = false;         ///< there is one, and no environment before it
   Source sky_ = Source::nothing;  ///< what else is all around: at most one of the rest
   Vec2 turn_{1, 0};               ///< cosine and sine of the rotation

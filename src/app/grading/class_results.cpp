@@ -1,6 +1,6 @@
 // After the head come records: sixteen digits of the key, then the record as a field. A field is its length,
 // a colon and its bytes, and the fields of a record follow one another.
-#include "app/compare/class_results.h"
+#include "app/grading/class_results.h"
 
 #include <filesystem>
 #include <utility>
@@ -13,7 +13,7 @@
 namespace trace {
 namespace {
 
-constexpr std::string_view kResultsHead = "Trace results of a class 1\n";
+constexpr std::string_view kResultsHead = "Trace results of a class 2\n";
 
 void appendField(std::string& to, std::string_view field) {
   to += std::to_string(field.size()) + ":";
@@ -56,6 +56,8 @@ std::string recordOf(const GradedPair& pair) {
     appendField(bytes, *text);
   appendField(bytes, toText(pair.width));
   appendField(bytes, toText(pair.height));
+  appendField(bytes, toText(pair.cpu));
+  appendField(bytes, toText(pair.ourCpu));
   appendField(bytes, std::to_string(pair.mistakes.size()));
   for (const std::string& mistake : pair.mistakes) appendField(bytes, mistake);
   appendField(bytes, std::to_string(pair.values.size()));
@@ -72,6 +74,8 @@ bool fillFrom(std::string_view bytes, GradedPair& pair) {
     *text = reader.text();
   pair.width = static_cast<int>(reader.number());
   pair.height = static_cast<int>(reader.number());
+  pair.cpu = reader.number();
+  pair.ourCpu = reader.number();
   pair.mistakes.clear();
   for (std::size_t i = reader.count(); i > 0 && reader.sound; --i) pair.mistakes.emplace_back(reader.text());
   pair.values.clear();

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "app/compare/grade.h"
-#include "app/compare/rubric.h"
+#include "app/grading/rubric.h"
+#include "app/grading/student_program.h"
 
 namespace trace {
 
@@ -15,7 +16,8 @@ struct ClassTask {
   GradeTask grade;  ///< its folder has a sub-folder for each student
   Rubric rubric;
   std::string results;  ///< the file that keeps results; "" for none
-  std::string csv;      ///< the file to be written, which must be none of those read; "" for none
+  ProgramRun run{};     ///< the students' programs make the pictures, of the scenes of `grade`
+  std::string csv{};    ///< the file to be written, which must be none of those read; "" for none
 };
 
 struct ClassScene {

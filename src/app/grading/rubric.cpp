@@ -1,4 +1,4 @@
-#include "app/compare/rubric.h"
+#include "app/grading/rubric.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/compare/class_grade.h"
 #include "app/compare/html.h"
+#include "app/grading/class_grade.h"
 #include "base/text.h"
 
 namespace trace {
@@ -74,10 +74,20 @@ std::string cellText(const GradedPair& pair) {
   return text.empty() ? std::string(verdictText(pair.verdict)) : text;
 }
 
+/// "1.24 s (Trace 0.51 s)"; "" if no program was run.
+std::string timeText(const GradedPair& pair) {
+  if (pair.cpu < 0) return "";
+  char text[80];
+  std::snprintf(text, sizeof text, pair.ourCpu < 0 ? "%.2f s" : "%.2f s (Trace %.2f s)", pair.cpu,
+                pair.ourCpu);
+  return text;
+}
+
 std::string detailText(const ClassTask& task, const ClassStudent& student, const GradedPair& pair) {
   std::string text(verdictText(pair.verdict));
   if (!pair.cause.empty()) text += "\n" + pair.cause;
   if (!pair.problem.empty()) text += "\n" + pair.problem;
+  if (pair.cpu >= 0) text += "\nprocessor time " + timeText(pair);
   for (std::size_t i = 0; i < pair.values.size(); ++i) {
     char number[40];
     std::snprintf(number, sizeof number, "%.4g", pair.values[i]);
@@ -98,7 +108,8 @@ std::string cellHtml(const ClassTask& task, const ClassStudent& student, std::si
   if (!pair.heatPicture.empty())
     html += "<img class=\"heat\" alt=\"\" hidden src=\"" + dataAddress("jpeg", pair.heatPicture) + "\">";
   return html + "<span class=\"" + (good ? "good" : "bad") + "\">" + pointsText(student.points[i]) + " " +
-         escaped(cellText(pair)) + "</span></td>";
+         escaped(cellText(pair)) + "</span>" +
+         (pair.cpu < 0 ? "" : "<span class=\"faint\">" + timeText(pair) + "</span>") + "</td>";
 }
 
 std::string csvField(std::string text) {
@@ -159,7 +170,8 @@ std::string classPage(const ClassTask& task, const ClassGrades& grades) {
 std::string classCsv(const ClassGrades& grades) {
   std::string text = "student,points,of";
   for (const ClassScene& scene : grades.scenes)
-    for (const char* column : {" points", " verdict", " cause"}) text += "," + csvField(scene.name + column);
+    for (const char* column : {" points", " verdict", " cause", " cpu", " cpu of Trace"})
+      text += "," + csvField(scene.name + column);
   text += "\r\n";
   for (const ClassStudent& student : grades.students) {
     text += csvField(student.name) + "," + pointsText(student.total) + "," + pointsText(grades.possible);
@@ -167,6 +179,8 @@ std::string classCsv(const ClassGrades& grades) {
       const GradedPair& pair = student.pairs[i];
       text += "," + pointsText(student.points[i]) + "," + std::string(verdictText(pair.verdict)) + "," +
               csvField(pair.cause.empty() ? pair.problem : pair.cause);
+      for (const double seconds : {pair.cpu, pair.ourCpu})
+        text += "," + (seconds < 0 ? "" : pointsText(seconds));
     }
     text += "\r\n";
   }

@@ -1,15 +1,16 @@
-#include "app/compare/class_grade.h"
+#include "app/grading/class_grade.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <map>
 #include <mutex>
 #include <optional>
 
-#include "app/compare/class_results.h"
 #include "app/compare/grade_files.h"
+#include "app/grading/class_results.h"
 #include "app/session/output.h"
 #include "app/session/version.h"
 #include "base/budget.h"
@@ -131,6 +132,9 @@ class ClassGrader {
   explicit ClassGrader(const ClassTask& task) : task_(task), results_(task.results) {}
 
   ClassGrades grade() {
+    if (runs() && task_.grade.scenes.empty())
+      throw Error(Fault::usage, "--run: expected --scene DIR, the folder of the scenes", "--scene scenes");
+    checkRun(task_.run);
     readReferences();
     for (Submission& submission : submissionsIn(task_.grade)) students_.push_back(std::move(submission));
     for (const Submission& student : students_) {
@@ -148,6 +152,10 @@ class ClassGrader {
   }
 
  private:
+  bool runs() const { return !task_.run.command.empty(); }
+  /// Each of them takes all threads, or is measured.
+  bool isOneByOne() const { return runs() || task_.grade.renderScenes || !task_.grade.scenes.empty(); }
+
   void readReferences() {
     const FolderFiles files = filesBelow(task_.grade.reference, pictureKind);
     std::map<std::string, std::string> names;
@@ -186,8 +194,9 @@ class ClassGrader {
     const int threads = resolve({task_.grade.choices}).threads;
     const ReadScope scope({}, {task_.grade.reference});
     optionsHash_ = hashOfOptions();
+    if (!task_.grade.scenes.empty()) scenesHash_ = hashOfFolder(task_.grade.scenes);
     try {
-      parallelChunks(count, task_.grade.renderScenes ? 1 : threads, job, [&](std::int64_t i, int) {
+      parallelChunks(count, isOneByOne() ? 1 : threads, job, [&](std::int64_t i, int) {
         work.reached(job.done);
         gradeStudent(students_[static_cast<std::size_t>(i)], grades_.students[static_cast<std::size_t>(i)]);
         keepSometimes();
@@ -210,7 +219,11 @@ class ClassGrader {
       text += " " + toText(value);
     for (const Limit& limit : task.limits)
       text += "\n" + std::string(limit.metric->name) + " " + toText(limit.value);
-    if (task.renderScenes)
+    if (runs())
+      text += "\nrun " + task_.run.command + "\n" + toText(task_.run.limits.seconds) + " " +
+              std::to_string(task_.run.limits.memory) + " " + std::to_string(task_.run.limits.output) +
+              (task_.run.isolated ? "" : " not isolated");
+    if (task.renderScenes || !task.scenes.empty())
       for (const Choice& choice : task.choices) text += "\n" + choice.option + "=" + choice.value;
     Hash hash;
     hash.add(text);
@@ -226,12 +239,14 @@ class ClassGrader {
       for (const fs::path& file : *list)
         if (list == &student.files.files || !task_.grade.renderScenes || hasSceneSuffix(file))
           files.push_back(file.generic_string());
-    if (task_.grade.renderScenes) student.everything = hashOfFolder(student.folder);
+    if (task_.grade.renderScenes || runs()) student.everything = hashOfFolder(student.folder);
     const std::vector<std::string> assigned = assignSubmissions(names, files);
     for (std::size_t i = 0; i < names.size(); ++i) {
       GradedPair& pair = graded.pairs[i];
-      pair.file = assigned[i];
-      if (pair.file.empty())
+      pair.file = runs() ? "" : assigned[i];
+      if (runs())
+        runPair(student, references_[i], pair);
+      else if (pair.file.empty())
         pair.verdict = Verdict::missing;
       else
         gradePair(student, references_[i], pair);
@@ -256,6 +271,7 @@ class ClassGrader {
       hash.add(reference.hash);
       hash.add(readFile(file));
       if (task_.grade.renderScenes) hash.add(student.everything), hash.add(pair.file);
+      if (!task_.grade.scenes.empty()) hash.add(scenesHash_), hash.add(pair.name);
       const std::uint64_t key = hash.value();
       {
         const std::lock_guard lock(mutex_);
@@ -266,12 +282,71 @@ class ClassGrader {
                      task_.grade.renderScenes ? renderedScene(file, task_.grade, inputs) : loadPicture(file),
                      task_.grade.difference);
       judge(pair, d, task_.grade.limits);
+      addSceneCause(pair, d, task_.grade, inputs);
       if (task_.grade.keepsPictures && !passes(pair.verdict)) addThumbnails(pair, d);
       const std::lock_guard lock(mutex_);
       results_.add(key, pair);
       ++grades_.computed;
     });
     checkOutputs(inputs);
+  }
+
+  /// The student's program makes the picture.
+  void runPair(const Submission& student, const Reference& reference, GradedPair& pair) {
+    const std::string scene = sceneOf(task_.grade, pair.name);
+    if (!reference.picture || scene.empty()) {
+      pair.verdict = Verdict::unreadable;
+      pair.problem = reference.picture ? "there is no scene of this name in " + task_.grade.scenes
+                                       : "the reference cannot be read: " + reference.problem;
+      return;
+    }
+    Hash hash;
+    for (const std::uint64_t part : {optionsHash_, scenesHash_, reference.hash, student.everything})
+      hash.add(part);
+    hash.add(pair.name);
+    const std::uint64_t key = hash.value();
+    {
+      const std::lock_guard lock(mutex_);
+      if (results_.find(key, pair)) return;
+    }
+    double cpu = -1;
+    InputFiles inputs;
+    judgeOrNote(pair, [&] {
+      const std::string suffix = fs::path(reference.path).extension().string();
+      const PictureDifference d =
+          difference(*reference.picture, programPicture(task_.run, student.folder, scene, suffix, cpu),
+                     task_.grade.difference);
+      judge(pair, d, task_.grade.limits);
+      addSceneCause(pair, d, task_.grade, inputs);
+      if (task_.grade.keepsPictures && !passes(pair.verdict)) addThumbnails(pair, d);
+    });
+    pair.cpu = cpu;
+    pair.ourCpu = ourCpuOf(scene);
+    const std::lock_guard lock(mutex_);
+    results_.add(key, pair);
+    ++grades_.computed;
+  }
+
+  /// The processor time that Trace takes for the scene; measured once, and kept.
+  double ourCpuOf(const std::string& scene) {
+    if (const auto known = ourCpu_.find(scene); known != ourCpu_.end()) return known->second;
+    Hash hash;
+    for (const std::uint64_t part : {optionsHash_, scenesHash_}) hash.add(part);
+    hash.add("ours " + scene);
+    GradedPair ours;
+    {
+      const std::lock_guard lock(mutex_);
+      if (results_.find(hash.value(), ours)) return ourCpu_[scene] = ours.ourCpu;
+    }
+    judgeOrNote(ours, [&] {
+      InputFiles inputs;
+      const std::clock_t begin = std::clock();
+      renderedScene(scene, task_.grade, inputs);
+      ours.ourCpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+    });
+    const std::lock_guard lock(mutex_);
+    results_.add(hash.value(), ours);
+    return ourCpu_[scene] = ours.ourCpu;
   }
 
   void addThumbnails(GradedPair& pair, const PictureDifference& d) const {
@@ -321,8 +396,9 @@ class ClassGrader {
   ClassGrades grades_;
   std::vector<Reference> references_;
   std::vector<Submission> students_;
-  std::uint64_t optionsHash_ = 0;
-  std::mutex mutex_;  // guards the members below, and grades_.computed
+  std::uint64_t optionsHash_ = 0, scenesHash_ = 0;
+  std::map<std::string, double> ourCpu_;  ///< by scene; used by one thread
+  std::mutex mutex_;                      // guards the members below, and grades_.computed
   ClassResults results_;
   std::chrono::steady_clock::time_point saved_ = std::chrono::steady_clock::now();
 };
