@@ -118,6 +118,7 @@ void splitter(const char* name, ImVec2 position, ImVec2 size, const Shared& dock
 
 void drawStudio(Studio& studio) {
   forgetLandmarks();
+  studio.rays.coarse = false;
   keepKeyboard(studio);
   followScene(studio);
   updateWays(studio);

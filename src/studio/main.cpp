@@ -22,6 +22,7 @@ namespace trace::studio {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 800;   // width and height of the window, at first, on a plain monitor
+constexpr double kSoon = 0.004;               // seconds until the next step of a view that is made smooth
 constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at what continues in the background
 
 const char* variable(const char* name) { return std::getenv(name); }
@@ -46,7 +47,10 @@ bool isBusy(Studio& studio) {
 /// True if there is something new to see. Waits for it, but not longer than so many seconds.
 bool update(Studio& studio, double longest) {
   Workspace& workspace = studio.workspace;
-  bool due = studio.window.wait(std::min(longest, isBusy(studio) ? kBusy : kIdle));
+  const auto smooths = [&] { return studio.rays.coarse && studio.window.rested() > RaysView::kRest; };
+  bool due = studio.window.wait(std::min(longest, smooths()                              ? kSoon
+                                                  : isBusy(studio) || studio.rays.coarse ? kBusy
+                                                                                         : kIdle));
   for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
   const std::uint64_t failures = workspace.failures(), refusals = workspace.refusals();
   workspace.update();
@@ -58,7 +62,7 @@ bool update(Studio& studio, double longest) {
   const Workspace::Pulse pulse = workspace.pulse();
   const bool modelling =
       studio.rays.modelTask.busy() || studio.rays.chains.busy() || studio.rays.pyramid.busy();
-  due = due || studio.pulse != pulse || modelling != studio.modelling || studio.themeChanged ||
+  due = due || smooths() || studio.pulse != pulse || modelling != studio.modelling || studio.themeChanged ||
         ImGui::GetIO().WantTextInput;  // its cursor blinks
   studio.pulse = pulse;
   studio.modelling = modelling;

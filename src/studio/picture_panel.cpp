@@ -56,6 +56,8 @@ void refresh(Studio& studio) {
     view.shownVersion = version;
     view.shown = workspace.render.picture();
     pictureChanged = true;
+    view.waits = workspace.document.isOpen() && view.shown.width == 0;
+    if (!workspace.render.session()) view.convergence = {};
   }
   if (pictureChanged || view.development != developmentOf(settings))
     view.levels = developed(view.shown, developmentOf(settings));
@@ -237,9 +239,9 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   const FrameArea& under = two && mouse.x > canvas.x + part.x ? second : frame;
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) zoomAndPan(view, under);
   // -1 before the first. A mouse outside the window may be anywhere.
-  const auto pixelAt = [](float part, int size) {
+  const auto pixelAt = [](float share, int size) {
     const float most = static_cast<float>(size);
-    return static_cast<int>(std::floor(std::clamp(part * most, -1.0f, most)));
+    return static_cast<int>(std::floor(std::clamp(share * most, -1.0f, most)));
   };
   x = pixelAt((mouse.x - under.low.x) / under.size.x, width);
   y = pixelAt((mouse.y - under.low.y) / under.size.y, height);
@@ -275,7 +277,7 @@ void drawPicture(Studio& studio) {
   const ImVec2 area{room.x, room.y - below};
   if (area.x < 8 || area.y < 8) return;
   PictureView& view = studio.picture;
-  if (view.pictureTexture.empty()) {
+  if (view.pictureTexture.empty() || view.waits) {
     if (!studio.workspace.document.isOpen()) return drawWelcome(studio, area);
     ImGui::Dummy(area);
     return drawStatus(studio, false, 0, 0);

@@ -27,8 +27,9 @@ std::string state(const Studio& studio) {
   if (const TracedPixel* traced = workspace.inspector.traced())
     text << "traced " << traced->x << " " << traced->y << "\n";
   if (const TracedPixel* pixel = shownPixel(studio))
-    text << "rays " << pixel->tree().nodes.size() << "\nways " << pixel->ways.size() << "\nway "
-         << studio.rays.way << "\n";
+    text << "why " << pixel->why.sentence << "\nfault " << pixel->why.ray << "\nrays "
+         << pixel->tree().nodes.size() << "\nways " << pixel->ways.size() << "\nway " << studio.rays.way
+         << "\n";
   if (const ChainWalk* walk = studio.rays.chains.walk(); walk && studio.rays.chains.offered())
     text << "chain " << studio.rays.chains.index() << " of " << walk->moves.size() << "\n";
   text << "pyramid " << studio.rays.pyramid.all.maker.pyramid().pictures.size() << "\n";

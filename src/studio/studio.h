@@ -55,6 +55,7 @@ struct Studio {
     bool hidden = true;            ///< the frame around it
   } keyboard;
   std::uint64_t frames = 0;  ///< drawn so far
+  int scriptFrames = 0;      ///< frames that the current command of a script has seen
   Workspace::Pulse pulse{};  ///< as the last frame showed it
   bool modelling = false;    ///< the view in space gets new triangles
   std::string sceneFile;     ///< that the selection and the views belong to
