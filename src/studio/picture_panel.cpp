@@ -266,10 +266,33 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   return inside;
 }
 
+/// The picture, in which a click chooses a pixel; true with the pixel if the cursor is on one.
+bool drawClickable(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
+  PictureView& view = studio.picture;
+  ImGui::InvisibleButton("canvas", area,
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  landmark("picture");
+  const bool inside = drawCanvas(studio, canvas, area, x, y);
+  const bool swiping = studio.workspace.reference() && view.view == View::swipe;
+  if (inside && (swiping ? ImGui::IsItemClicked(0) : ImGui::IsItemActive() && ImGui::IsMouseDown(0)))
+    view.pixel.choose(x, y, {view.shown.width, view.shown.height});
+  return inside;
+}
+
 }  // namespace
+
+void drawPictureAlone(Studio& studio) {
+  refresh(studio);
+  const ImVec2 area = ImGui::GetContentRegionAvail();
+  if (area.x < 8 || area.y < 8 || studio.picture.pictureTexture.empty() || studio.picture.waits) return;
+  int x = 0, y = 0;
+  drawClickable(studio, ImGui::GetCursorScreenPos(), area, x, y);
+}
 
 void drawPicture(Studio& studio) {
   refresh(studio);
+  if (!studio.workspace.document.isOpen()) return drawStart(studio, ImGui::GetContentRegionAvail());
   drawBar(studio);
   const ImVec2 canvas = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
   const float below = ImGui::GetFrameHeightWithSpacing() + ImGui::GetFrameHeightWithSpacing() +
@@ -278,19 +301,11 @@ void drawPicture(Studio& studio) {
   if (area.x < 8 || area.y < 8) return;
   PictureView& view = studio.picture;
   if (view.pictureTexture.empty() || view.waits) {
-    if (!studio.workspace.document.isOpen()) return drawWelcome(studio, area);
     ImGui::Dummy(area);
     return drawStatus(studio, false, 0, 0);
   }
-  ImGui::InvisibleButton("canvas", area,
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                             ImGuiButtonFlags_MouseButtonMiddle);
-  landmark("picture");
   int x = 0, y = 0;
-  const bool inside = drawCanvas(studio, canvas, area, x, y);
-  const bool swiping = studio.workspace.reference() && view.view == View::swipe;
-  if (inside && (swiping ? ImGui::IsItemClicked(0) : ImGui::IsItemActive() && ImGui::IsMouseDown(0)))
-    view.pixel.choose(x, y, {view.shown.width, view.shown.height});
+  const bool inside = drawClickable(studio, canvas, area, x, y);
   drawStatus(studio, inside, x, y);
 }
 

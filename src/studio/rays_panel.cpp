@@ -129,10 +129,7 @@ void showBoxes(Studio& studio) {
   view.box = static_cast<int>(view.boxes.size());
 }
 
-namespace {
-
-/// Asks for the rays of the pixel that is selected and takes those that have come.
-void updatePixel(Studio& studio) {
+void updateRays(Studio& studio) {
   RaysView& view = studio.rays;
   const PictureView& picture = studio.picture;
   PixelInspector& inspector = studio.workspace.inspector;
@@ -169,6 +166,8 @@ void updatePixel(Studio& studio) {
   view.rays = count;
   view.boxesOf = -1;
 }
+
+namespace {
 
 /// The contribution of the light image to the pixel besides its rays; "" where there is none.
 std::string lightImageAt(const TracedPixel& pixel) {
@@ -214,7 +213,7 @@ void drawNote(const Studio& studio, const TracedPixel& pixel) {
 void drawRays(Studio& studio) {
   RaysView& view = studio.rays;
   if (!studio.workspace.document.isOpen()) return ImGui::TextDisabled("no scene is open");
-  updatePixel(studio);
+  updateRays(studio);
   view.hovered = -1;
   const PixelInspector& inspector = studio.workspace.inspector;
   const TracedPixel* pixel = shownPixel(studio);

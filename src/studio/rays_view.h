@@ -117,6 +117,8 @@ inline Color colourOf(RayLooks looks, bool light) {
 
 struct Studio;
 
+/// Asks for the rays of the pixel that is selected and takes those that have come.
+void updateRays(Studio& studio);
 /// The pixel whose rays are shown; null if there are none.
 const TracedPixel* shownPixel(const Studio& studio);
 /// So many rays on in the order of tracing, or back: from the first on if all are shown, or from the last

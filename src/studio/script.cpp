@@ -266,6 +266,8 @@ constexpr std::array kCommands{
             [](Studio& s, const Words&) {
               return s.workspace.document.isOpen() && !s.picture.waits && s.picture.shown.width > 0;
             }},
+    Command{"thumbnails", "", 0, 0, "wait until the start page has all its pictures", nullptr, nullptr, 3,
+            [](Studio& s, const Words&) { return s.start.complete(); }},
     Command{"pin", "", 0, 0, "pin the rays of this pixel, or unpin them",
             [](Studio& s, const Words&) { s.workspace.inspector.pin(!s.workspace.inspector.pinned()); }},
     Command{"ray", "NUMBER", 1, 1, "select a ray of the pixel, in the order of tracing from 0",

@@ -35,6 +35,7 @@ std::string state(const Studio& studio) {
   text << "pyramid " << studio.rays.pyramid.all.maker.pyramid().pictures.size() << "\n";
   if (const InPlaceOfPicture alone = wayAlone(studio); !alone.caption.empty())
     text << "alone " << alone.caption << "\n";
+  text << "stage " << (studio.stage ? "yes" : "no") << "\n";
   text << "pinned " << (workspace.inspector.pinned() ? "yes" : "no") << "\n";
   if (workspace.document.isOpen()) text << "objects " << workspace.document.scene().objects.size() << "\n";
   text << "from-camera " << (studio.rays.fromCamera ? "yes" : "no") << "\n";

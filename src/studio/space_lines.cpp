@@ -202,7 +202,8 @@ Frustum frustumOf(const CameraFrame& f, Real distance) {
 std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum, const Vec3& eye) {
   const RaysView& view = studio.rays;
   const Scene& scene = studio.workspace.document.scene();
-  Pen pen(view.model, studio.theme.scale);
+  constexpr float kThicker = 1.6f;  // to be seen from the last row
+  Pen pen(view.model, studio.theme.scale * (studio.stage ? kThicker : 1));
   const Color accent = toColor(studio.palette().accent), muted = toColor(studio.palette().muted);
   std::optional<std::uint32_t> boxed;  // the object of the part before
   for (const ScenePart& part : view.model.parts) {

@@ -331,7 +331,7 @@ void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
 void drawSpace(Studio& studio) {
   RaysView& view = studio.rays;
   if (!view.drawer) view.drawer = std::make_unique<SceneDrawer>();
-  drawSwitches(studio);
+  if (!studio.stage) drawSwitches(studio);
   updateModel(studio);
   updateOrbit(studio);
   frameRays(studio);
@@ -384,7 +384,8 @@ void drawSpace(Studio& studio) {
     // While it is rendered it is new many times a second.
     constexpr double kLeastInterval = 1;  // seconds
     if (const double now = ImGui::GetTime();
-        !studio.workspace.render.state().working() || now - view.pictureSince > kLeastInterval) {
+        !studio.workspace.render.state().working() ||
+        (now - view.pictureSince > kLeastInterval && !view.drawer->coarse())) {
       view.pictureVersion = picture.version();
       view.pictureSince = now;
     }

@@ -14,7 +14,7 @@ namespace trace::studio {
 /// A key that went down, with those that were held.
 struct KeyPress {
   static constexpr int kEscape = 256, kEnter = 257, kDelete = 261, kF1 = 290, kF5 = 294, kF10 = 299,
-                       kKeypadEnter = 335;
+                       kF11 = 300, kKeypadEnter = 335;
 
   int key;  ///< what it writes, a capital letter for letters, '=' for plus; else GLFW's code
   bool control, shift, alt;

@@ -83,6 +83,20 @@ TEST_F(WorkspaceTest, WhatIsChosenBeforeASceneIsOpenHoldsForAllThatAreOpened) {
   EXPECT_EQ(workspace.commandLine.size(), 2u);
 }
 
+TEST_F(WorkspaceTest, ANewSceneIsWrittenAndOpenedButOverNoFile) {
+  Workspace workspace;
+  workspace.commandLine = {{"width", "20", {}}};
+  workspace.startScene(path("scene.ray"));  // which there is
+  EXPECT_FALSE(settled(workspace));
+  EXPECT_FALSE(workspace.document.isOpen());
+  workspace.startScene(path("first.ray"));
+  ASSERT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.document.file(), path("first.ray"));
+  EXPECT_GT(workspace.document.scene().objects.size(), 3u);
+  EXPECT_TRUE(std::filesystem::exists(path("first.ray")));
+  EXPECT_EQ(workspace.newSceneFile(), path("scene-2.ray"));
+}
+
 TEST_F(WorkspaceTest, WithoutASceneNothingIsWritten) {
   Workspace workspace;
   workspace.saveScene(path("kept.ray"));

@@ -230,12 +230,12 @@ END
 ! cmp -s before.png turned.png || fail "the view in space is as before it was turned"
 
 # When another scene is opened, nothing of the one before stays; why a pixel is black, and what cures it.
-cp -- "$root/docs/studio/depth_too_low.ray" black.ray
+cp -- "$root/scenes/lessons/black-glass.ray" black.ray
 cat >script <<'END'
-set width 150
 open black.ray
+set width 240
 wait
-pixel 47 49
+pixel 75 78
 rays
 state black
 drag 0 cure Pin and try depth 5
@@ -255,6 +255,29 @@ grep -q '^chosen depth 5$' cured || fail "the cure does not choose the depth"
 grep -q '^pinned yes$' cured || fail "the cure does not pin the rays"
 grep -q '^fault -1$' cured || fail "the cure does not cure"
 grep -q '^chosen depth 1$' undone || fail "the cure is not undone"
+
+# The start page has lessons; a click opens one. The stage shows picture and rays alone, and steps through them.
+cat >script <<'END'
+state start
+drag 0 start Black glass
+wait
+set width 240
+wait
+pixel 75 78
+rays
+action Stage
+state staged
+screenshot staged.png
+action Stage
+state left
+END
+"$studio" --script script >log 2>&1 || fail "the start page or the stage is not shown"
+grep -q ' start Shadow acne$' start || fail "the start page has no lessons"
+grep -q '^file black-glass.ray$' staged || fail "a click on a lesson does not open it"
+grep -q '^stage yes$' staged || fail "there is no stage"
+grep -q ' stage caption$' staged || fail "the stage has no caption"
+! grep -q ' panel Log$' staged || fail "the stage shows panels"
+grep -q '^stage no$' left || fail "the stage is not left"
 
 # Files dropped onto the window; from a bad sample to its rays, and through them one by one; a background; themes.
 cat >bad.ray <<'END'
