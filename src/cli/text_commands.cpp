@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/editing/first_scene.h"
 #include "app/session/output.h"
 #include "base/budget.h"
 #include "base/file.h"
 #include "base/read_scope.h"
 #include "cli/commands.h"
-#include "cli/first_scene.h"
 #include "formats/ray/file/format.h"
 #include "formats/ray/language/expansion.h"
 #include "formats/ray/syntax/layout.h"

@@ -55,7 +55,7 @@ constexpr std::array kWordRows{
     Row{"blades", "lens bokeh"},
     Row{"blade-angle", "lens bokeh"},
     Row{"aperture-picture", "lens bokeh shape image heart star"},
-    Row{"depth", "bounce bounces recursion reflections levels"},
+    Row{"depth", "bounce bounces recursion reflections levels black glass dark"},
     Row{"transfer", "gamma srgb"},
     Row{"quality", "preview fast draft final preset"},
     Row{"threshold", "adaptive cutoff speed"},

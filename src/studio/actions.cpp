@@ -13,12 +13,13 @@
 #include "studio/landmarks.h"
 #include "studio/panels.h"
 #include "studio/selection.h"
+#include "studio/stage.h"
 
 namespace trace::studio {
 namespace {
 
 constexpr int kEscape = KeyPress::kEscape, kEnter = KeyPress::kEnter, kDelete = KeyPress::kDelete,
-              kF1 = KeyPress::kF1, kF5 = KeyPress::kF5, kF10 = KeyPress::kF10;
+              kF1 = KeyPress::kF1, kF5 = KeyPress::kF5, kF10 = KeyPress::kF10, kF11 = KeyPress::kF11;
 
 bool always(const Studio&) { return true; }
 bool hasScene(const Studio& studio) { return studio.workspace.document.isOpen(); }
@@ -37,6 +38,12 @@ void openScene(Studio& studio) {
   studio.dialog.open(
       "Open a scene", FileDialog::Purpose::read, studio.workspace.document.file(), sceneSuffixes(),
       [&studio](const std::string& file) { studio.leave([&studio, file] { studio.workspace.open(file); }); });
+}
+void newScene(Studio& studio) {
+  studio.dialog.open("Write a new scene", FileDialog::Purpose::write, studio.workspace.newSceneFile(),
+                     {".ray"}, [&studio](const std::string& file) {
+                       studio.leave([&studio, file] { studio.workspace.startScene(file); });
+                     });
 }
 void openReference(Studio& studio) {
   const std::string near = studio.workspace.referenceFile().empty() ? studio.workspace.document.file()
@@ -58,6 +65,8 @@ void zoomText(Studio& studio, float factor) {
 }
 
 constexpr std::array kActions{
+    Action{"File", "New scene...", 'N', true, false, "write a first scene to a new file, and open it",
+           newScene, always, nullptr},
     Action{"File", "Open scene...", 'O', true, false, "choose a scene file", openScene, always, nullptr},
     Action{"File", "Open reference...", 'R', true, true, "choose a picture to compare with", openReference,
            always, nullptr},
@@ -110,6 +119,8 @@ constexpr std::array kActions{
            [](Studio& s) { s.picture.exposure += 0.5f; }, always, nullptr},
     Action{"View", "Darker", '-', false, false, "exposure half a stop down",
            [](Studio& s) { s.picture.exposure -= 0.5f; }, always, nullptr},
+    Action{"View", "Stage", kF11, false, false, "picture and view in space alone, large; space: the next ray",
+           toggleStage, hasScene, [](const Studio& s) { return s.stage; }},
     Action{"View", "Light theme", 'L', true, false, "dark letters on light, or light on dark",
            [](Studio& s) {
              s.theme.light = !s.theme.light;
@@ -133,28 +144,6 @@ bool belongsToText(const KeyPress& press) {
   const bool edits = press.key > 0 && press.key < 128 &&
                      std::string_view("ACVXYZ").find(static_cast<char>(press.key)) != std::string_view::npos;
   return press.control ? edits && !press.alt : !press.alt;
-}
-
-void takeKeys(Studio& studio) {
-  if (studio.pressed(kEnter)) enterPresses();
-  if (modalIsOpen(studio)) return;
-  // Menus and lists take the plain keys; Dear ImGui closes them on Esc.
-  constexpr ImGuiPopupFlags kAny = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
-  const bool popup = ImGui::IsPopupOpen("", kAny), text = ImGui::GetIO().WantTextInput;
-  for (const KeyPress& press : studio.keys) {
-    if ((text && belongsToText(press)) || (popup && !press.control && !press.alt)) continue;
-    for (const Action& action : kActions)
-      if (action.key == press.key && action.control == press.control &&
-          (action.shift == press.shift || press.key == '=') &&  // where + is above =
-          !press.alt && action.enabled(studio))
-        action.run(studio);
-    if (press.alt)
-      for (const Panel& panel : panels())
-        if (panel.key == press.key) studio.goTo(std::string(panel.name));
-    for (const Action& action : kActions)
-      if (press.alt ? action.menu[0] == press.key : press.key == kF10 && &action == kActions.data())
-        studio.menuToOpen = action.menu;
-  }
 }
 
 void recentMenu(Studio& studio) {
@@ -195,6 +184,30 @@ void menuTooltip(const char* help) {
 
 }  // namespace
 
+void takeKeys(Studio& studio) {
+  if (studio.pressed(kEnter)) enterPresses();
+  if (modalIsOpen(studio)) return;
+  // Menus and lists take the plain keys; Dear ImGui closes them on Esc.
+  constexpr ImGuiPopupFlags kAny = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
+  const bool popup = ImGui::IsPopupOpen("", kAny), text = ImGui::GetIO().WantTextInput;
+  for (const KeyPress& press : studio.keys) {
+    if (studio.stage && press.key == ' ') stepOnStage(studio);
+    if (studio.stage && press.key == kEscape) toggleStage(studio);
+    if ((text && belongsToText(press)) || (popup && !press.control && !press.alt)) continue;
+    for (const Action& action : kActions)
+      if (action.key == press.key && action.control == press.control &&
+          (action.shift == press.shift || press.key == '=') &&  // where + is above =
+          !press.alt && action.enabled(studio))
+        action.run(studio);
+    if (press.alt)
+      for (const Panel& panel : panels())
+        if (panel.key == press.key) studio.goTo(std::string(panel.name));
+    for (const Action& action : kActions)
+      if (press.alt ? action.menu[0] == press.key : press.key == kF10 && &action == kActions.data())
+        studio.menuToOpen = action.menu;
+  }
+}
+
 void chooseFile(Studio& studio, const Option& option) {
   const std::string name(option.name), now = option.get(studio.workspace.chosenSettings());
   const std::string near = now == "none" ? studio.workspace.document.file() : now;
@@ -214,6 +227,7 @@ std::string keyText(const Action& action) {
     case kEscape: return text + "Esc";
     case kF1: return text + "F1";
     case kF5: return text + "F5";
+    case kF11: return text + "F11";
     case kDelete: return text + "Delete";
     case '=': return text + "+";
     default: return text + static_cast<char>(action.key);

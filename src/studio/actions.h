@@ -25,6 +25,8 @@ void chooseFile(Studio& studio, const Option& option);
 /// "Ctrl+Shift+S", or "".
 std::string keyText(const Action& action);
 
+/// Does what the keys of this frame say.
+void takeKeys(Studio& studio);
 void drawMenu(Studio& studio);
 
 }  // namespace trace::studio

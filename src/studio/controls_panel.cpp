@@ -271,6 +271,14 @@ void drawControls(Studio& studio) {
     if (table) row(studio, option, defaults, now);
   }
   if (table) ImGui::EndTable();
+  if (const std::string_view words = filter; words == "black" || words == "dark" || words == "why") {
+    ImGui::PushTextWrapPos();
+    ImGui::TextColored(studio.palette().changed,
+                       "Click on the black pixel of the picture: the panel Rays says why, and what to try.");
+    landmark("where to look");
+    ImGui::PopTextWrapPos();
+    found = true;
+  }
   if (!found) {
     const std::string among = onlyChanged ? " among the options that were changed" : "";
     ImGui::PushTextWrapPos();

@@ -10,6 +10,7 @@
 #include "studio/landmarks.h"
 #include "studio/number_field.h"
 #include "studio/panels.h"
+#include "studio/stage.h"
 
 namespace trace::studio {
 namespace {
@@ -118,10 +119,17 @@ void splitter(const char* name, ImVec2 position, ImVec2 size, const Shared& dock
 
 void drawStudio(Studio& studio) {
   forgetLandmarks();
+  studio.rays.coarse = false;
   keepKeyboard(studio);
   followScene(studio);
   updateWays(studio);
   if (!ImGui::IsAnyItemActive()) studio.editedItem = 0;
+  if (studio.stage && !studio.workspace.document.isOpen()) toggleStage(studio);
+  if (studio.stage) {
+    drawStage(studio);
+    drawDialogs(studio);
+    return noteKeyboard(studio);
+  }
   drawMenu(studio);
   Layout& layout = studio.layout;
   if (!layout.ask.empty())  // a hidden panel that is asked for comes back to its first dock
@@ -132,11 +140,12 @@ void drawStudio(Studio& studio) {
   const ImGuiViewport& view = *ImGui::GetMainViewport();
   const ImVec2 at = view.WorkPos, all = view.WorkSize;
   const float bar = std::max(3.0f, std::round(4 * studio.theme.scale));
-  const float left = occupied(studio, Dock::left)  // wide enough for names beside values
+  const bool starts = !studio.workspace.document.isOpen() && occupied(studio, Dock::centre);
+  const float left = occupied(studio, Dock::left) && !starts  // wide enough for names beside values
                          ? std::round(std::max(all.x * layout.left, std::min(characters(30), all.x * 0.32f)))
                          : 0;
   const float rest = all.x - left;
-  float right = occupied(studio, Dock::right) ? std::round(all.x * layout.right) : 0;
+  float right = occupied(studio, Dock::right) && !starts ? std::round(all.x * layout.right) : 0;
   if (!occupied(studio, Dock::centre)) right = rest;
   right = std::min(right, rest - (right < rest ? all.x * kLeast : 0));
   const float low = occupied(studio, Dock::bottom) ? std::round(all.y * layout.bottom) : 0;

@@ -22,6 +22,8 @@ namespace trace::studio {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 800;   // width and height of the window, at first, on a plain monitor
+constexpr float kStage = 1.6f;                // how much larger everything is on the stage
+constexpr double kSoon = 0.004;               // seconds until the next step of a view that is made smooth
 constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at what continues in the background
 
 const char* variable(const char* name) { return std::getenv(name); }
@@ -40,13 +42,16 @@ bool isBusy(Studio& studio) {
   Workspace& workspace = studio.workspace;
   return workspace.render.state().working() || workspace.reading() || workspace.saving() ||
          workspace.inspector.busy() || studio.rays.modelTask.busy() || studio.rays.chains.busy() ||
-         studio.rays.pyramid.busy();
+         studio.rays.pyramid.busy() || (!workspace.document.isOpen() && studio.start.task.pending());
 }
 
 /// True if there is something new to see. Waits for it, but not longer than so many seconds.
 bool update(Studio& studio, double longest) {
   Workspace& workspace = studio.workspace;
-  bool due = studio.window.wait(std::min(longest, isBusy(studio) ? kBusy : kIdle));
+  const auto smooths = [&] { return studio.rays.coarse && studio.window.rested() > RaysView::kRest; };
+  bool due = studio.window.wait(std::min(longest, smooths()                              ? kSoon
+                                                  : isBusy(studio) || studio.rays.coarse ? kBusy
+                                                                                         : kIdle));
   for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
   const std::uint64_t failures = workspace.failures(), refusals = workspace.refusals();
   workspace.update();
@@ -58,7 +63,8 @@ bool update(Studio& studio, double longest) {
   const Workspace::Pulse pulse = workspace.pulse();
   const bool modelling =
       studio.rays.modelTask.busy() || studio.rays.chains.busy() || studio.rays.pyramid.busy();
-  due = due || studio.pulse != pulse || modelling != studio.modelling || studio.themeChanged ||
+  due = due || smooths() || studio.start.news(workspace.document.isOpen()) || studio.pulse != pulse ||
+        modelling != studio.modelling || studio.themeChanged ||
         ImGui::GetIO().WantTextInput;  // its cursor blinks
   studio.pulse = pulse;
   studio.modelling = modelling;
@@ -67,7 +73,7 @@ bool update(Studio& studio, double longest) {
 
 void frame(Studio& studio) {
   if (studio.themeChanged) {
-    studio.theme.scale = studio.window.contentScale() * studio.userScale;
+    studio.theme.scale = studio.window.contentScale() * studio.userScale * (studio.stage ? kStage : 1);
     apply(studio.theme);
     studio.window.fontsChanged();
     studio.themeChanged = false;
@@ -103,6 +109,9 @@ int run(const Arguments& arguments) {
   const std::string ini = folder + "/imgui.ini";  // widths of columns; written when the window goes
   Window window("Trace", kWidth, kHeight);
   Studio studio(window);
+  std::error_code unknown;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  studio.start.folder = examplesFolder(program.string());
   studio.configFolder = folder;
   ImGui::GetIO().IniFilename = folder.empty() ? nullptr : ini.c_str();
   if (!folder.empty()) restore(studio);

@@ -20,6 +20,8 @@ std::span<const Panel> panels();
 
 // The functions of the table; each in its own file.
 void drawPicture(Studio&);
+/// The picture without what is around it, in the rest of the child window.
+void drawPictureAlone(Studio&);
 void drawControls(Studio&);
 void drawScene(Studio&);
 void drawRays(Studio&);

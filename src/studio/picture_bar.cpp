@@ -83,26 +83,4 @@ void drawBar(Studio& studio) {
   }
 }
 
-void drawWelcome(Studio& studio, ImVec2 area) {
-  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + area.y * 0.3f);
-  const auto centred = [&](const char* text) {
-    ImGui::SetCursorPosX(std::max(0.0f, (area.x - ImGui::CalcTextSize(text).x) / 2));
-    ImGui::TextDisabled("%s", text);
-  };
-  centred(studio.workspace.reading() ? "The file is being read." : "Drop a scene here, or");
-  ImGui::SetCursorPosX(std::max(0.0f, (area.x - characters(24)) / 2));
-  if (ImGui::Button("Open scene...", {characters(24), 0})) actions().front().run(studio);
-  const auto recent = studio.workspace.recent();
-  if (!recent.empty()) {
-    ImGui::NewLine();
-    centred("Opened lately:");
-  }
-  for (const std::string& file : recent) {
-    ImGui::SetCursorPosX(std::max(0.0f, (area.x - ImGui::CalcTextSize(file.c_str()).x) / 2));
-    ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
-    if (ImGui::SmallButton(file.c_str())) studio.workspace.open(file);
-    ImGui::PopStyleColor();
-  }
-}
-
 }  // namespace trace::studio

@@ -56,6 +56,8 @@ void refresh(Studio& studio) {
     view.shownVersion = version;
     view.shown = workspace.render.picture();
     pictureChanged = true;
+    view.waits = workspace.document.isOpen() && view.shown.width == 0;
+    if (!workspace.render.session()) view.convergence = {};
   }
   if (pictureChanged || view.development != developmentOf(settings))
     view.levels = developed(view.shown, developmentOf(settings));
@@ -237,9 +239,9 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   const FrameArea& under = two && mouse.x > canvas.x + part.x ? second : frame;
   if (ImGui::IsItemHovered() || ImGui::IsItemActive()) zoomAndPan(view, under);
   // -1 before the first. A mouse outside the window may be anywhere.
-  const auto pixelAt = [](float part, int size) {
+  const auto pixelAt = [](float share, int size) {
     const float most = static_cast<float>(size);
-    return static_cast<int>(std::floor(std::clamp(part * most, -1.0f, most)));
+    return static_cast<int>(std::floor(std::clamp(share * most, -1.0f, most)));
   };
   x = pixelAt((mouse.x - under.low.x) / under.size.x, width);
   y = pixelAt((mouse.y - under.low.y) / under.size.y, height);
@@ -264,10 +266,33 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   return inside;
 }
 
+/// The picture, in which a click chooses a pixel; true with the pixel if the cursor is on one.
+bool drawClickable(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
+  PictureView& view = studio.picture;
+  ImGui::InvisibleButton("canvas", area,
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  landmark("picture");
+  const bool inside = drawCanvas(studio, canvas, area, x, y);
+  const bool swiping = studio.workspace.reference() && view.view == View::swipe;
+  if (inside && (swiping ? ImGui::IsItemClicked(0) : ImGui::IsItemActive() && ImGui::IsMouseDown(0)))
+    view.pixel.choose(x, y, {view.shown.width, view.shown.height});
+  return inside;
+}
+
 }  // namespace
+
+void drawPictureAlone(Studio& studio) {
+  refresh(studio);
+  const ImVec2 area = ImGui::GetContentRegionAvail();
+  if (area.x < 8 || area.y < 8 || studio.picture.pictureTexture.empty() || studio.picture.waits) return;
+  int x = 0, y = 0;
+  drawClickable(studio, ImGui::GetCursorScreenPos(), area, x, y);
+}
 
 void drawPicture(Studio& studio) {
   refresh(studio);
+  if (!studio.workspace.document.isOpen()) return drawStart(studio, ImGui::GetContentRegionAvail());
   drawBar(studio);
   const ImVec2 canvas = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
   const float below = ImGui::GetFrameHeightWithSpacing() + ImGui::GetFrameHeightWithSpacing() +
@@ -275,20 +300,12 @@ void drawPicture(Studio& studio) {
   const ImVec2 area{room.x, room.y - below};
   if (area.x < 8 || area.y < 8) return;
   PictureView& view = studio.picture;
-  if (view.pictureTexture.empty()) {
-    if (!studio.workspace.document.isOpen()) return drawWelcome(studio, area);
+  if (view.pictureTexture.empty() || view.waits) {
     ImGui::Dummy(area);
     return drawStatus(studio, false, 0, 0);
   }
-  ImGui::InvisibleButton("canvas", area,
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                             ImGuiButtonFlags_MouseButtonMiddle);
-  landmark("picture");
   int x = 0, y = 0;
-  const bool inside = drawCanvas(studio, canvas, area, x, y);
-  const bool swiping = studio.workspace.reference() && view.view == View::swipe;
-  if (inside && (swiping ? ImGui::IsItemClicked(0) : ImGui::IsItemActive() && ImGui::IsMouseDown(0)))
-    view.pixel.choose(x, y, {view.shown.width, view.shown.height});
+  const bool inside = drawClickable(studio, canvas, area, x, y);
   drawStatus(studio, inside, x, y);
 }
 

@@ -15,7 +15,5 @@ inline bool sameSize(const Picture& a, const Picture& b) {
 void drawBar(Studio& studio);
 /// Two lines below it: how far the render is, or the pixel x, y that the cursor is on; and how exact it is.
 void drawStatus(Studio& studio, bool hovered, int x, int y);
-/// In its place, while there is no scene.
-void drawWelcome(Studio& studio, ImVec2 area);
 
 }  // namespace trace::studio

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "app/view/picture_views.h"
+#include "scene/integrators.h"
 #include "studio/field_editor.h"
 #include "studio/landmarks.h"
 #include "studio/picture_parts.h"
@@ -49,7 +50,11 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
   if (state.working()) {
     char text[96];
     const std::string left = state.remaining ? ", " + durationText(*state.remaining) + " left" : "";
-    if (state.phase == BackgroundRender::Phase::building)
+    if (state.phase == BackgroundRender::Phase::building && state.fraction > 0)
+      std::snprintf(text, sizeof text, "%s, %.0f %%",
+                    hasTrait(workspace.document.settings(), Trait::photons) ? "sending photons" : "preparing",
+                    std::floor(100 * state.fraction));
+    else if (state.phase == BackgroundRender::Phase::building)
       std::snprintf(text, sizeof text, "building");
     else if (state.phase == BackgroundRender::Phase::denoising)
       std::snprintf(text, sizeof text, "taking noise out");

@@ -29,8 +29,9 @@ struct PictureView {
 
   // The contents of the textures.
   Texture pictureTexture, referenceTexture, differenceTexture;
-  Picture shown;   ///< linear colours of the render
-  Picture levels;  ///< what the tone makes of them, whose levels pictureTexture shows
+  bool waits = false;  ///< for the first picture of a scene
+  Picture shown;       ///< linear colours of the render
+  Picture levels;      ///< what the tone makes of them, whose levels pictureTexture shows
   std::uint64_t shownVersion = ~std::uint64_t{0}, referenceVersion = ~std::uint64_t{0};
   double refreshed = 0, refreshCost = 0;  ///< seconds
   // How the textures were made.

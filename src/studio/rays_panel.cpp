@@ -129,10 +129,7 @@ void showBoxes(Studio& studio) {
   view.box = static_cast<int>(view.boxes.size());
 }
 
-namespace {
-
-/// Asks for the rays of the pixel that is selected and takes those that have come.
-void updatePixel(Studio& studio) {
+void updateRays(Studio& studio) {
   RaysView& view = studio.rays;
   const PictureView& picture = studio.picture;
   PixelInspector& inspector = studio.workspace.inspector;
@@ -140,6 +137,7 @@ void updatePixel(Studio& studio) {
   if (session && picture.pixel) {
     const PixelPlace pixel = picture.pixel.in(session->size());
     if (pixel.x != view.clickedX || pixel.y != view.clickedY) view.chainMove = -1;
+    if (pixel.x != view.clickedX || pixel.y != view.clickedY) view.frameDue = view.raysFramed;
     view.clickedX = pixel.x;
     view.clickedY = pixel.y;
     inspector.want(session, pixel.x, pixel.y, view.sample);
@@ -157,7 +155,9 @@ void updatePixel(Studio& studio) {
   const std::size_t count = shown->tree().nodes.size();
   if (shown->x != view.x || shown->y != view.y || count != view.rays) {
     view.step = -1;
-    view.selected = count > 0 ? 0 : -1;
+    const int fault = shown->why.ray;
+    view.selected = fault >= 0 && fault < static_cast<int>(count) ? fault : count > 0 ? 0 : -1;
+    view.scrollTo = view.selected;
     view.closed.assign(count, 0);
   }
   chooseWay(studio, -1);
@@ -166,6 +166,8 @@ void updatePixel(Studio& studio) {
   view.rays = count;
   view.boxesOf = -1;
 }
+
+namespace {
 
 /// The contribution of the light image to the pixel besides its rays; "" where there is none.
 std::string lightImageAt(const TracedPixel& pixel) {
@@ -211,7 +213,7 @@ void drawNote(const Studio& studio, const TracedPixel& pixel) {
 void drawRays(Studio& studio) {
   RaysView& view = studio.rays;
   if (!studio.workspace.document.isOpen()) return ImGui::TextDisabled("no scene is open");
-  updatePixel(studio);
+  updateRays(studio);
   view.hovered = -1;
   const PixelInspector& inspector = studio.workspace.inspector;
   const TracedPixel* pixel = shownPixel(studio);
@@ -219,7 +221,7 @@ void drawRays(Studio& studio) {
   ImGui::BeginChild("space",
                     {0, height * (!pixel              ? 0.88f
                                   : view.pyramid.open ? 0.38f
-                                                      : 0.52f)},
+                                                      : 0.45f)},
                     false, ImGuiWindowFlags_NoScrollWithMouse);
   drawSpace(studio);
   ImGui::EndChild();
@@ -235,6 +237,7 @@ void drawRays(Studio& studio) {
     ImGui::TextColored(studio.palette().error, "%s", inspector.traced()->problem.c_str());
     ImGui::PopTextWrapPos();
   } else {
+    drawWhy(studio, *pixel);
     drawHead(studio, *pixel);
     if (!view.pyramid.open) drawNote(studio, *pixel);  // the pyramid is of the whole picture
     view.pyramid.open = false;

@@ -47,6 +47,9 @@ struct InPlaceOfPicture {
 enum class Surfaces { shaded, wireframe, none };
 
 struct RaysView {
+  /// Seconds without mouse and keys, after which there is time for a smooth view in space.
+  static constexpr double kRest = 0.12;
+
   int sample = 0;        ///< that is asked for
   std::size_t rays = 0;  ///< rays of the pixel that is shown
   int x = -1, y = -1;    ///< x and y of that pixel
@@ -74,11 +77,21 @@ struct RaysView {
 
   // The view in space.
   std::unique_ptr<SceneDrawer> drawer;
-  SceneModel model;                                                          ///< that is drawn
-  std::shared_ptr<const Scene> modelScene;                                   ///< whose model was asked for
+  bool coarse = false;                      ///< the last frame drew it, and the next makes it smoother
+  std::uint64_t pictureVersion = 0;         ///< version of the picture on its plane
+  double pictureSince = -1;                 ///< when it was drawn, in seconds
+  std::string modelOf;                      ///< the scene file that `model` belongs to
+  bool built = false;                       ///< `model` is there
+  SceneModel model;                         ///< that is drawn
+  std::shared_ptr<const Scene> modelScene;  ///< whose model was asked for
   std::shared_ptr<SceneModeler> modeler = std::make_shared<SceneModeler>();  ///< used by modelTask alone
-  BackgroundTask<SceneModel> modelTask;
-  std::string orbitFile;  ///< the scene file that `orbit` was set for
+  struct Modelled {
+    std::string file;
+    SceneModel model;
+  };
+  BackgroundTask<Modelled> modelTask;
+  std::string orbitFile;   ///< the scene file that `orbit` was set for
+  std::string orbitGuess;  ///< the same, before there is a World to see it with
   OrbitCamera orbit;
   Real size = 1;  ///< radius of what is looked at: of lights, normals and rays that leave the scene
   bool fromCamera = false;
@@ -89,6 +102,8 @@ struct RaysView {
   Surfaces surfaces = Surfaces::shaded;
   float opacity = 1;  ///< opacity of surfaces
   bool boundsShown = false, normalsShown = false, lightsShown = true, cameraShown = true, axesShown = false;
+  bool raysFramed = true;  ///< a click brings the pixel's rays into sight
+  bool frameDue = false;   ///< the rays that are shown next are
   bool pictureShown = true, hitNormalsShown = true, pinnedShown = true, hierarchyShown = true;
   std::array<bool, kRayLooks.size()> lookHidden{};
 
@@ -102,6 +117,8 @@ inline Color colourOf(RayLooks looks, bool light) {
 
 struct Studio;
 
+/// Asks for the rays of the pixel that is selected and takes those that have come.
+void updateRays(Studio& studio);
 /// The pixel whose rays are shown; null if there are none.
 const TracedPixel* shownPixel(const Studio& studio);
 /// So many rays on in the order of tracing, or back: from the first on if all are shown, or from the last
@@ -121,6 +138,10 @@ void drawPyramid(Studio& studio, const TracedPixel& pixel);
 void updateWays(Studio& studio);
 /// The way that is seen alone, if one is chosen.
 InPlaceOfPicture wayAlone(const Studio& studio);
+/// Why the pixel has its colour: a sentence, the sum, and what may cure it.
+void drawWhy(Studio& studio, const TracedPixel& pixel);
+/// Chooses the cure, after pinning the pixel's rays if that is asked for.
+void cure(Studio& studio, const TracedPixel& pixel, const WhyCure& by, bool pins);
 /// The tab that compares the rays with those that were pinned.
 void drawDifference(Studio& studio, const TracedPixel& traced);
 /// The scene and the rays in space, with its switches and legend, in the rest of the child window.

@@ -4,6 +4,7 @@
 #include <GL/gl.h>
 #include <GL/glext.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -14,7 +15,15 @@
 namespace trace::studio {
 namespace {
 
-constexpr int kSamples = 4;  // per pixel, for smooth edges
+/// Places in a pixel, one for each step towards the smooth picture: its rows and columns each have one.
+constexpr std::array<std::array<double, 2>, 8> kPlaces{{{0.5625, 0.4375},
+                                                        {0.0625, 0.9375},
+                                                        {0.8125, 0.1875},
+                                                        {0.3125, 0.6875},
+                                                        {0.9375, 0.8125},
+                                                        {0.1875, 0.3125},
+                                                        {0.4375, 0.0625},
+                                                        {0.6875, 0.5625}}};
 
 constexpr const char* kSurfaceVertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
@@ -101,6 +110,15 @@ uniform float opacity;
 out vec4 result;
 void main() { result = vec4(texture(picture, at).rgb, opacity); })";
 
+/// One triangle over everything.
+constexpr const char* kCopyVertex = R"(#version 330 core
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); })";
+
+constexpr const char* kCopyFragment = R"(#version 330 core
+uniform sampler2D picture;
+out vec4 result;
+void main() { result = vec4(texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb, 1); })";
+
 void attribute(unsigned index, int count, std::size_t stride, std::size_t offset) {
   glEnableVertexAttribArray(index);
   glVertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, static_cast<int>(stride),
@@ -121,38 +139,45 @@ struct PictureCorner {
 }  // namespace
 
 struct SceneDrawer::State {
-  unsigned surface = 0, line = 0, pictures = 0;  // programs
-  unsigned surfaceArray = 0, lineArray = 0, pictureArray = 0;
+  unsigned surface = 0, line = 0, pictures = 0, copy = 0;  // programs
+  unsigned surfaceArray = 0, lineArray = 0, pictureArray = 0, nothing = 0;
   unsigned surfaceBuffer = 0, lineBuffer = 0, pictureBuffer = 0;
-  unsigned smooth = 0, colourBuffer = 0, depthBuffer = 0;  // drawn into, several samples a pixel
-  unsigned plain = 0, texture = 0;                         // the result
+  unsigned plain = 0, texture = 0, depth = 0;  // drawn into, one sample a pixel
+  unsigned smooth = 0, mean = 0;               // the mean of several
   int width = 0, height = 0;
   std::array<float, 16> matrix{};
   Vec3 eye, inside;
   SeeThrough seeThrough;
   std::optional<SpaceDrawing> shown;
+  std::size_t steps = 0;  // number of kPlaces that are in the mean
   std::uint64_t drawn = 0;
 
   void resize(int w, int h) {
     if (w == width && h == height) return;
     width = w;
     height = h;
-    glBindRenderbuffer(GL_RENDERBUFFER, colourBuffer);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, kSamples, GL_RGB8, w, h);
-    glBindRenderbuffer(GL_RENDERBUFFER, depthBuffer);
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, kSamples, GL_DEPTH_COMPONENT24, w, h);
-    glBindFramebuffer(GL_FRAMEBUFFER, smooth);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colourBuffer);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depthBuffer);
-    glBindTexture(GL_TEXTURE_2D, texture);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, w, h, 0, GL_RGB, GL_UNSIGNED_BYTE, nullptr);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    const auto make = [&](unsigned name, int format, unsigned content, unsigned type) {
+      glBindTexture(GL_TEXTURE_2D, name);
+      glTexImage2D(GL_TEXTURE_2D, 0, format, w, h, 0, content, type, nullptr);
+      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    };
+    make(texture, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+    make(mean, GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT);
+    make(depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
     glBindFramebuffer(GL_FRAMEBUFFER, plain);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, smooth);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, mean, 0);
   }
 
-  void draw(const SpaceDrawing& drawing);
+  void drawPlain(const SpaceDrawing& drawing);
+  void drawStep(const SpaceDrawing& drawing);
+  void begin(const SpaceDrawing& drawing, double x, double y);
+  void overlay(const SpaceDrawing& drawing);
+  void copyOver(unsigned frame, unsigned picture) const;
+  static void leave();
   void surfaces(const std::vector<DrawSurface>& parts);
   void picture(const DrawPicture& picture);
   void lines(const std::vector<DrawLine>& lines, float hidden);
@@ -168,11 +193,12 @@ SceneDrawer::SceneDrawer() : state_(std::make_unique<State>()) {
   s.surface = linkProgram(kSurfaceVertex, kSurfaceFragment.c_str());
   s.line = linkProgram(kLineVertex, kLineFragment);
   s.pictures = linkProgram(kPictureVertex, kPictureFragment);
-  for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray}) glGenVertexArrays(1, array);
+  s.copy = linkProgram(kCopyVertex, kCopyFragment);
+  for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray, &s.nothing})
+    glGenVertexArrays(1, array);
   for (unsigned* buffer : {&s.surfaceBuffer, &s.lineBuffer, &s.pictureBuffer}) glGenBuffers(1, buffer);
   for (unsigned* frame : {&s.smooth, &s.plain}) glGenFramebuffers(1, frame);
-  for (unsigned* buffer : {&s.colourBuffer, &s.depthBuffer}) glGenRenderbuffers(1, buffer);
-  glGenTextures(1, &s.texture);
+  for (unsigned* picture : {&s.texture, &s.mean, &s.depth}) glGenTextures(1, picture);
 
   glBindVertexArray(s.surfaceArray);
   glBindBuffer(GL_ARRAY_BUFFER, s.surfaceBuffer);
@@ -193,12 +219,12 @@ SceneDrawer::SceneDrawer() : state_(std::make_unique<State>()) {
 
 SceneDrawer::~SceneDrawer() {
   State& s = *state_;
-  for (unsigned program : {s.surface, s.line, s.pictures}) glDeleteProgram(program);
-  for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray}) glDeleteVertexArrays(1, array);
+  for (unsigned program : {s.surface, s.line, s.pictures, s.copy}) glDeleteProgram(program);
+  for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray, &s.nothing})
+    glDeleteVertexArrays(1, array);
   for (unsigned* buffer : {&s.surfaceBuffer, &s.lineBuffer, &s.pictureBuffer}) glDeleteBuffers(1, buffer);
   for (unsigned* frame : {&s.smooth, &s.plain}) glDeleteFramebuffers(1, frame);
-  for (unsigned* buffer : {&s.colourBuffer, &s.depthBuffer}) glDeleteRenderbuffers(1, buffer);
-  glDeleteTextures(1, &s.texture);
+  for (unsigned* picture : {&s.texture, &s.mean, &s.depth}) glDeleteTextures(1, picture);
 }
 
 void SceneDrawer::setCorners(const std::vector<float>& corners) {
@@ -210,55 +236,103 @@ void SceneDrawer::setCorners(const std::vector<float>& corners) {
 
 std::uint64_t SceneDrawer::drawn() const { return state_->drawn; }
 
-ImTextureID SceneDrawer::show(SpaceDrawing drawing) {
+bool SceneDrawer::coarse() const { return state_->shown && state_->steps < kPlaces.size(); }
+
+ImTextureID SceneDrawer::show(SpaceDrawing drawing, bool rests) {
   State& s = *state_;
   if (s.shown != drawing) {
-    s.draw(drawing);
+    s.drawPlain(drawing);
     s.shown = std::move(drawing);
+    s.steps = 0;
     ++s.drawn;
+  } else if (rests && coarse()) {
+    s.drawStep(*s.shown);
   }
-  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(s.texture));
+  const bool between = s.steps > 0 && s.steps < kPlaces.size();
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(between ? s.mean : s.texture));
 }
 
-void SceneDrawer::State::draw(const SpaceDrawing& d) {
+/// Draws solid surfaces, seen through that place of each pixel.
+void SceneDrawer::State::begin(const SpaceDrawing& d, double x, double y) {
   resize(d.width, d.height);
-  for (std::size_t i = 0; i < 16; ++i) matrix[i] = static_cast<float>(d.matrix[i / 4][i % 4]);
+  const std::array<double, 2> aside{(2 * x - 1) / width, (2 * y - 1) / height};
+  for (std::size_t row = 0; row < 4; ++row)
+    for (std::size_t i = 0; i < 4; ++i)
+      matrix[4 * row + i] =
+          static_cast<float>(d.matrix[row][i] + (row < 2 ? aside[row] * d.matrix[3][i] : 0));
   eye = d.eye;
   inside = d.inside;
-  glBindFramebuffer(GL_FRAMEBUFFER, smooth);
+  glBindFramebuffer(GL_FRAMEBUFFER, plain);
   glViewport(0, 0, width, height);
   glDisable(GL_SCISSOR_TEST);
   glDisable(GL_CULL_FACE);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
-  glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glClearColor(d.background[0], d.background[1], d.background[2], 1);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-
+  glDisable(GL_BLEND);
   surfaces(d.solid);
+  glEnable(GL_BLEND);
   if (d.picture) picture(*d.picture);
-  if (!d.clear.empty()) {
-    seeThrough.begin(width, height);
-    surfaces(d.solid);
-    if (d.picture) picture(*d.picture);
-    while (seeThrough.nextLayer()) surfaces(d.clear);
-    seeThrough.layOver(smooth);
-  }
+}
+
+/// Draws lines over surfaces.
+void SceneDrawer::State::overlay(const SpaceDrawing& d) {
   glDepthMask(GL_FALSE);
   glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
   surfaces(d.wires);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   lines(d.lines, d.hidden);
   glDepthMask(GL_TRUE);
+}
 
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, smooth);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, plain);
-  glBlitFramebuffer(0, 0, width, height, 0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+void SceneDrawer::State::drawPlain(const SpaceDrawing& d) {
+  begin(d, 0.5, 0.5);
+  seeThrough.end();
+  glDepthMask(GL_FALSE);
+  surfaces(d.clear);
+  overlay(d);
+  leave();
+}
+
+void SceneDrawer::State::drawStep(const SpaceDrawing& d) {
+  begin(d, kPlaces[steps][0], kPlaces[steps][1]);
+  if (!d.clear.empty()) {
+    seeThrough.begin(width, height, depth);
+    while (seeThrough.nextLayer()) surfaces(d.clear);
+    seeThrough.layOver(plain);
+  }
+  overlay(d);
+  ++steps;
+  glBlendColor(0, 0, 0, 1.0f / static_cast<float>(steps));
+  glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+  copyOver(smooth, texture);
+  if (steps == kPlaces.size()) {  // as bytes it is shown faster
+    glDisable(GL_BLEND);
+    copyOver(plain, mean);
+  }
+  leave();
+}
+
+void SceneDrawer::State::copyOver(unsigned frame, unsigned picture) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, frame);
+  glDisable(GL_DEPTH_TEST);
+  glUseProgram(copy);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, picture);
+  glUniform1i(glGetUniformLocation(copy, "picture"), 0);
+  glBindVertexArray(nothing);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/// As Dear ImGui expects it.
+void SceneDrawer::State::leave() {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glBindVertexArray(0);
   glUseProgram(0);
+  glDepthMask(GL_TRUE);
   glDisable(GL_DEPTH_TEST);
 }
 

@@ -56,6 +56,7 @@ struct SpaceDrawing {
   bool operator==(const SpaceDrawing&) const = default;
 };
 
+/// Draws it plainly at once, then smoothly in a few steps, one for each call: so a frame is never late.
 class SceneDrawer {
  public:
   SceneDrawer();  ///< an OpenGL context must be current
@@ -65,9 +66,13 @@ class SceneDrawer {
 
   /// Six floats for each corner: position and normal.
   void setCorners(const std::vector<float>& corners);
-  /// Draws it, unless it is what was drawn last. Row 0 of the texture is at the bottom.
-  ImTextureID show(SpaceDrawing drawing);
-  /// How often something was drawn.
+  /// Draws it plainly if it is not what was drawn last: one sample a pixel, surfaces that others show through
+  /// in no order. Else, if it `rests`, the next step on the way to a smooth picture. Row 0 of the texture is
+  /// at the bottom.
+  ImTextureID show(SpaceDrawing drawing, bool rests);
+  /// Whether the picture is not smooth yet.
+  bool coarse() const;
+  /// How often something else was drawn.
   std::uint64_t drawn() const;
 
  private:

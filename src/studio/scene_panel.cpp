@@ -11,9 +11,13 @@
 #include "app/editing/placing.h"
 #include "app/editing/scene_changes.h"
 #include "app/editing/typed_file.h"
+#include "app/view/scene_model.h"
 #include "base/file.h"
 #include "base/text.h"
 #include "geometry/mesh/mesh.h"
+#include "geometry/mesh/tessellate.h"
+#include "render/world/hit.h"
+#include "scene/picture_size.h"
 #include "studio/field_editor.h"
 #include "studio/landmarks.h"
 #include "studio/object_editor.h"
@@ -85,6 +89,24 @@ void branch(Studio& studio, Selected kind, const char* title, std::size_t count,
   ImGui::TreePop();
 }
 
+/// On what the camera looks at.
+Affine inSight(const Studio& studio, const Shape& shape) {
+  const auto session = studio.workspace.render.session();
+  if (!session) return {};
+  const World& world = session->world();
+  const Camera& camera = session->scene().camera;
+  const CameraFrame view =
+      frame(cameraFor(session->scene(), session->settings()), session->settings().cameraAxes);
+  const Ray ray = world.camera().ray({0.5, 0.5});
+  Statistics statistics;
+  std::optional<SurfacePoint> there;
+  if (const auto found = world.closest(ray, Faces::both, statistics)) there = Hit(world, ray, *found).surface;
+  constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+  const Box3 all = frameOf(session->scene());
+  const Real ahead = all.empty() ? 5 : std::max(length(all.center() - view.eye), 1e-30);
+  return placedInSight(drawnBounds(shape, kEverywhere), view, camera.updir, there, ahead);
+}
+
 void addMenu(Studio& studio) {
   if (ImGui::Button("Add...")) ImGui::OpenPopup("add");
   if (!ImGui::BeginPopup("add")) return;
@@ -100,7 +122,7 @@ void addMenu(Studio& studio) {
   shapeMenu([&](Shape shape) {
     add(Selected::object, nameOf("", shape), [&](Scene& scene) {
       if (scene.materials.empty()) scene.materials.push_back(newMaterial());
-      scene.objects.push_back({"", shape, {}, 0, {}});
+      scene.objects.push_back({"", shape, inSight(studio, shape), 0, {}});
     });
   });
   ImGui::Separator();

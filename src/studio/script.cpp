@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <sstream>
 
@@ -52,12 +54,16 @@ std::string joined(const std::vector<std::string>& words, std::size_t first = 0)
   return text;
 }
 
-/// The area that a landmark covers.
-Picture part(const Picture& all, const std::string& name) {
+const Landmark& partOf(const std::string& name) {
   const auto found = landmarks().find(name);
   if (found == landmarks().end()) throw Error(Fault::usage, "the window shows no \"" + name + "\"");
+  return found->second;
+}
+
+/// The area that a landmark covers.
+Picture part(const Picture& all, const std::string& name) {
+  const Landmark& at = partOf(name);
   const auto bound = [](float x, int most) { return std::clamp(static_cast<int>(std::lround(x)), 0, most); };
-  const Landmark& at = found->second;
   const int left = bound(at[0], all.width), top = bound(at[1], all.height);
   Picture result(bound(at[2], all.width) - left, bound(at[3], all.height) - top);
   for (int y = 0; y < result.height; ++y)
@@ -124,6 +130,45 @@ void clickPixel(Studio& studio, int x, int y) {
                                   std::to_string(size.height) + ", found " + std::to_string(x) + " " +
                                   std::to_string(y));
   studio.picture.goTo(x, y);
+}
+
+/// The pointer at a place of the part, in shares of its width and height.
+void pointAt(Studio& studio, const Landmark& at, double x, double y) {
+  studio.window.feed({.kind = InputEvent::Kind::pointer,
+                      .x = at[0] + x * static_cast<double>(at[2] - at[0]),
+                      .y = at[1] + y * static_cast<double>(at[3] - at[1])});
+}
+
+void press(Studio& studio, bool down) {
+  studio.window.feed({.kind = InputEvent::Kind::button, .code = 0, .down = down});
+}
+
+/// Moves the pointer a little in each frame, over the middle half of the part; true when it is done.
+bool movePointer(Studio& studio, const Words& words, bool drags) {
+  const int frames = whole(words[0]), frame = studio.scriptFrames;
+  const Landmark& at = partOf(joined(words, 1));
+  const double share = frames > 0 ? std::min(1.0, static_cast<double>(frame) / frames) : 1;
+  if (drags && frame > frames) return press(studio, false), true;
+  pointAt(studio, at, 0.25 + 0.5 * share, 0.4 + 0.2 * share);
+  if (drags && frame == 0) press(studio, true);
+  return !drags && frame >= frames;
+}
+
+/// Time and frames since the last call.
+void printTimes(const Studio& studio, const std::string& what) {
+  using Clock = std::chrono::steady_clock;
+  static Clock::time_point wall = Clock::now();
+  static std::clock_t processor = std::clock();
+  static std::uint64_t frames = 0;
+  const double seconds = std::chrono::duration<double>(Clock::now() - wall).count(),
+               busy = static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
+  if (!what.empty())
+    std::printf("%s\t%d\t%.4f\t%.4f\n", what.c_str(), static_cast<int>(studio.frames - frames), seconds,
+                busy);
+  std::fflush(stdout);
+  wall = Clock::now();
+  processor = std::clock();
+  frames = studio.frames;
 }
 
 void checkNumbers(const Words& words) {
@@ -194,7 +239,7 @@ constexpr std::array kCommands{
               return s.picture.convergence.samples >= whole(a[0]) || !s.workspace.render.state().working();
             }},
     Command{"pixel", "X Y", 2, 2, "click this pixel of the picture",
-            [](Studio& s, const Words& a) { clickPixel(s, whole(a[0]), whole(a[1])); }, checkNumbers},
+            [](Studio& s, const Words& a) { clickPixel(s, whole(a[0]), whole(a[1])); }, checkNumbers, 1},
     Command{"bad", "NUMBER", 1, 1, "show the rays of a bad sample of the last render, counted from 0",
             [](Studio& s, const Words& a) {
               const std::vector<BadSample> bad = s.workspace.render.result().badSamples;
@@ -214,6 +259,15 @@ constexpr std::array kCommands{
             [](Studio& s, const Words&) {
               return !s.workspace.inspector.busy() && !s.rays.chains.busy() && !s.rays.pyramid.busy();
             }},
+    Command{
+        "seen", "", 0, 0, "wait until a frame shows the rays of the pixel", nullptr, nullptr, 0,
+        [](Studio& s, const Words&) { return s.rays.x == s.rays.clickedX && s.rays.y == s.rays.clickedY; }},
+    Command{"shown", "", 0, 0, "wait until a frame shows something of the picture", nullptr, nullptr, 0,
+            [](Studio& s, const Words&) {
+              return s.workspace.document.isOpen() && !s.picture.waits && s.picture.shown.width > 0;
+            }},
+    Command{"thumbnails", "", 0, 0, "wait until the start page has all its pictures", nullptr, nullptr, 3,
+            [](Studio& s, const Words&) { return s.start.complete(); }},
     Command{"pin", "", 0, 0, "pin the rays of this pixel, or unpin them",
             [](Studio& s, const Words&) { s.workspace.inspector.pin(!s.workspace.inspector.pinned()); }},
     Command{"ray", "NUMBER", 1, 1, "select a ray of the pixel, in the order of tracing from 0",
@@ -260,6 +314,17 @@ constexpr std::array kCommands{
               writePicture(a[0], a.size() > 1 ? part(all, joined(a, 1)) : all);
             },
             checkPicture},
+    Command{"drag", "FRAMES PART...", 2, 9,
+            "drag the mouse over a part that `state` names, in so many frames", nullptr,
+            [](const Words& a) { whole(a[0]); }, 0,
+            [](Studio& s, const Words& a) { return movePointer(s, a, true); }},
+    Command{"hover", "FRAMES PART...", 2, 9,
+            "move the mouse over a part that `state` names, in so many frames", nullptr,
+            [](const Words& a) { whole(a[0]); }, 0,
+            [](Studio& s, const Words& a) { return movePointer(s, a, false); }},
+    Command{"times", "[WORDS...]", 0, 9,
+            "write the frames since the last `times`, their seconds, and those of all processors",
+            [](Studio& s, const Words& a) { printTimes(s, joined(a)); }, nullptr, 0},
     Command{"state", "FILE", 1, 1, "write in words what is chosen and where things are",
             [](Studio& s, const Words& a) { writeFile(a[0], state(s)); }, nullptr, 0},
     Command{"say", "WORDS...", 1, 9, "write these words to standard output, for a waiting program",
@@ -325,6 +390,8 @@ bool Script::next(Studio& studio) {
   const Workspace& workspace = studio.workspace;
   waits_ = workspace.reading() || workspace.saving();
   if (waits_) return true;
+  waits_ = studio.rays.coarse && next_ < lines_.size() && lines_[next_].words[0] == "screenshot";
+  if (waits_) return true;
   const bool failed = workspace.failures() > 0;  // in what the last command began, or the command line
   if (failed && next_ == 0) throw Error(Fault::io, errorsIn(workspace));
   if (next_ == lines_.size() && !failed) return false;
@@ -335,8 +402,10 @@ bool Script::next(Studio& studio) {
     const Words arguments = argumentsOf(line.words);
     if (command.run) command.run(studio, arguments);
     waits_ = command.until && !command.until(studio, arguments);
+    ++studio.scriptFrames;
     if (!waits_) {
       ++next_;
+      studio.scriptFrames = 0;
       framesToWait_ = command.settle;
     }
     return true;

@@ -27,13 +27,15 @@ std::string state(const Studio& studio) {
   if (const TracedPixel* traced = workspace.inspector.traced())
     text << "traced " << traced->x << " " << traced->y << "\n";
   if (const TracedPixel* pixel = shownPixel(studio))
-    text << "rays " << pixel->tree().nodes.size() << "\nways " << pixel->ways.size() << "\nway "
-         << studio.rays.way << "\n";
+    text << "why " << pixel->why.sentence << "\nfault " << pixel->why.ray << "\nrays "
+         << pixel->tree().nodes.size() << "\nways " << pixel->ways.size() << "\nway " << studio.rays.way
+         << "\n";
   if (const ChainWalk* walk = studio.rays.chains.walk(); walk && studio.rays.chains.offered())
     text << "chain " << studio.rays.chains.index() << " of " << walk->moves.size() << "\n";
   text << "pyramid " << studio.rays.pyramid.all.maker.pyramid().pictures.size() << "\n";
   if (const InPlaceOfPicture alone = wayAlone(studio); !alone.caption.empty())
     text << "alone " << alone.caption << "\n";
+  text << "stage " << (studio.stage ? "yes" : "no") << "\n";
   text << "pinned " << (workspace.inspector.pinned() ? "yes" : "no") << "\n";
   if (workspace.document.isOpen()) text << "objects " << workspace.document.scene().objects.size() << "\n";
   text << "from-camera " << (studio.rays.fromCamera ? "yes" : "no") << "\n";

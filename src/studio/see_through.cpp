@@ -11,8 +11,7 @@
 namespace trace::studio {
 namespace {
 
-constexpr int kFiner = 2;        // pixels of a layer for one of the picture, each way, for smooth edges
-constexpr int kMostLayers = 16;  // what lies behind so many is not seen
+constexpr int kMostLayers = 16;                 // what lies behind so many is not seen
 constexpr int kSolidUnit = 1, kBeforeUnit = 2;  // units of textures
 
 /// One triangle over everything.
@@ -37,15 +36,16 @@ void main() {
 
 struct SeeThrough::State {
   unsigned over = 0, nothing = 0;  // the program, and a vertex array without attributes
-  unsigned solid = 0, before[2] = {}, colour = 0,
+  unsigned solid = 0;              // texture, of whoever draws
+  unsigned before[2] = {}, colour = 0,
            sum = 0;  // textures; of `sum` colours are times their opacity
-  unsigned solidFrame = 0, layerFrames[2] = {}, sumFrame = 0;
+  unsigned layerFrames[2] = {}, sumFrame = 0;
   unsigned query = 0;
   int width = 0, height = 0, layers = 0;
 
   void texture(unsigned name, int format, unsigned content, unsigned type, int filter) const {
     glBindTexture(GL_TEXTURE_2D, name);
-    glTexImage2D(GL_TEXTURE_2D, 0, format, kFiner * width, kFiner * height, 0, content, type, nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, content, type, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -57,16 +57,15 @@ struct SeeThrough::State {
     width = w;
     height = h;
     // Depths as they are: rounded ones would let a surface show through itself.
-    for (const unsigned depth : {solid, before[0], before[1]})
+    for (const unsigned depth : {before[0], before[1]})
       texture(depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, GL_NEAREST);
     for (const unsigned picture : {colour, sum})
-      texture(picture, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GL_LINEAR);
+      texture(picture, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GL_NEAREST);
     const auto attach = [](unsigned frame, unsigned depth, unsigned picture) {
       glBindFramebuffer(GL_FRAMEBUFFER, frame);
       if (depth) glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
       glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture, 0);
     };
-    attach(solidFrame, solid, colour);
     for (int i = 0; i < 2; ++i) attach(layerFrames[i], before[i], colour);
     attach(sumFrame, 0, sum);
   }
@@ -90,9 +89,8 @@ SeeThrough::SeeThrough() : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.over = linkProgram(kOverVertex, kOverFragment);
   glGenVertexArrays(1, &s.nothing);
-  for (unsigned* name : {&s.solid, &s.before[0], &s.before[1], &s.colour, &s.sum}) glGenTextures(1, name);
-  for (unsigned* name : {&s.solidFrame, &s.layerFrames[0], &s.layerFrames[1], &s.sumFrame})
-    glGenFramebuffers(1, name);
+  for (unsigned* name : {&s.before[0], &s.before[1], &s.colour, &s.sum}) glGenTextures(1, name);
+  for (unsigned* name : {&s.layerFrames[0], &s.layerFrames[1], &s.sumFrame}) glGenFramebuffers(1, name);
   glGenQueries(1, &s.query);
 }
 
@@ -100,17 +98,17 @@ SeeThrough::~SeeThrough() {
   State& s = *state_;
   glDeleteProgram(s.over);
   glDeleteVertexArrays(1, &s.nothing);
-  for (unsigned* name : {&s.solid, &s.before[0], &s.before[1], &s.colour, &s.sum}) glDeleteTextures(1, name);
-  for (unsigned* name : {&s.solidFrame, &s.layerFrames[0], &s.layerFrames[1], &s.sumFrame})
-    glDeleteFramebuffers(1, name);
+  for (unsigned* name : {&s.before[0], &s.before[1], &s.colour, &s.sum}) glDeleteTextures(1, name);
+  for (unsigned* name : {&s.layerFrames[0], &s.layerFrames[1], &s.sumFrame}) glDeleteFramebuffers(1, name);
   glDeleteQueries(1, &s.query);
 }
 
-void SeeThrough::begin(int width, int height) {
+void SeeThrough::begin(int width, int height, unsigned solidDepth) {
   State& s = *state_;
   s.resize(width, height);
+  s.solid = solidDepth;
   s.layers = 0;
-  glViewport(0, 0, kFiner * width, kFiner * height);
+  glViewport(0, 0, width, height);
   glClearColor(0, 0, 0, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, s.sumFrame);
   glClear(GL_COLOR_BUFFER_BIT);
@@ -118,8 +116,6 @@ void SeeThrough::begin(int width, int height) {
   glClearDepth(0);
   glClear(GL_DEPTH_BUFFER_BIT);
   glClearDepth(1);
-  glBindFramebuffer(GL_FRAMEBUFFER, s.solidFrame);
-  glClear(GL_DEPTH_BUFFER_BIT);
 }
 
 bool SeeThrough::nextLayer() {
@@ -149,6 +145,8 @@ bool SeeThrough::nextLayer() {
   return true;
 }
 
+void SeeThrough::end() { state_->layers = 0; }
+
 void SeeThrough::useIn(unsigned program) const {
   glUniform1i(glGetUniformLocation(program, "solidDepth"), kSolidUnit);
   glUniform1i(glGetUniformLocation(program, "depthBefore"), kBeforeUnit);
@@ -162,6 +160,9 @@ void SeeThrough::layOver(unsigned frameBuffer) {
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   s.lay(s.sum, true);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glActiveTexture(GL_TEXTURE0 + kSolidUnit);  // which is drawn into next
+  glBindTexture(GL_TEXTURE_2D, 0);
+  glActiveTexture(GL_TEXTURE0);
   s.layers = 0;
 }
 

@@ -14,13 +14,16 @@ class SeeThrough {
   SeeThrough(const SeeThrough&) = delete;
   SeeThrough& operator=(const SeeThrough&) = delete;
 
-  /// From now on what is solid is to be drawn: its depth is all that counts.
-  void begin(int width, int height);
+  /// Before the first layer. The texture has the depth of what is solid.
+  void begin(int width, int height, unsigned solidDepth);
   /// From now on what lets others show through is to be drawn, with the uniforms of useIn(); false if there
   /// was nothing left in the layer before.
   bool nextLayer();
-  /// For a program whose fragment shader begins with kDeclarations and calls peel() first.
+  /// For a program whose fragment shader begins with kDeclarations and calls peel() first; also before
+  /// begin().
   void useIn(unsigned program) const;
+  /// From now on all is drawn that useIn() is called for.
+  void end();
   /// Lays the layers over the frame buffer of the size given to begin().
   void layOver(unsigned frameBuffer);
 

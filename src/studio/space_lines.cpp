@@ -121,14 +121,27 @@ void addNormals(const SceneModel& model, Real size, const Color& colour, Pen& pe
   }
 }
 
-void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, Pen& pen) {
+/// Two short strokes in the middle of a ray, which show where it goes.
+void addArrow(const RaySegment& segment, const Vec3& eye, const Color& c, float opacity, float width,
+              Pen& pen) {
+  constexpr Real kPlace = 0.55, kLong = 0.016, kWide = 0.45;
+  const Vec3 along = segment.to - segment.from, tip = segment.from + along * kPlace;
+  const Real far = length(along), size = std::min(kLong * length(tip - eye), 0.2 * far);
+  const Vec3 across = cross(along, tip - eye);
+  if (!(far > 0) || !(length(across) > 0)) return;
+  const Vec3 back = tip - along * (size / far), side = across * (kWide * size / length(across));
+  pen.line(tip, back + side, c, opacity, width);
+  pen.line(tip, back - side, c, opacity, width);
+}
+
+void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, const Vec3& eye, Pen& pen) {
   const RaysView& view = studio.rays;
   const Real whole = std::max(maxComponent(pixel.tree().nodes.front().weight), 1e-30);
   for (const RaySegment& segment : pixel.segments) {
     const int i = segment.node;
     const RayNode& node = pixel.tree().nodes[static_cast<std::size_t>(i)];
     if (view.lookHidden[static_cast<std::size_t>(segment.looks)] || (!pinned && !view.inStep(i))) continue;
-    const bool hot = !pinned && (i == view.hoveredBefore || i == view.selected || i == view.step - 1);
+    const bool hot = !pinned && (i == view.selected || i == view.step - 1);
     const Color colour = pinned ? Color(0.6) : colourOf(segment.looks, studio.theme.light);
     const auto& way = view.wayRays;
     const bool chosen = !pinned && std::find(way.begin(), way.end(), i) != way.end();
@@ -136,11 +149,10 @@ void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, Pen& p
     const auto weight =
         chosen ? 1.0f
                : static_cast<float>(std::sqrt(std::clamp(maxComponent(node.weight) / whole, 0.0, 1.0)));
-    pen.line(segment.from, segment.to, hot ? lerp(0.35, colour, Color(studio.theme.light ? 0 : 1)) : colour,
-             pinned  ? 0.6f
-             : faint ? 0.25f
-                     : 1,
-             1.2f + 2.2f * weight + (hot ? 1.0f : 0), segment.leaves ? 6.0f : 0);
+    const Color tint = hot ? lerp(0.35, colour, Color(studio.theme.light ? 0 : 1)) : colour;
+    const float opacity = pinned ? 0.6f : faint ? 0.25f : 1, width = 1.0f + 3.0f * weight + (hot ? 1.0f : 0);
+    pen.line(segment.from, segment.to, tint, opacity, width, segment.leaves ? 6.0f : 0);
+    addArrow(segment, eye, tint, opacity, width, pen);
     if (view.hitNormalsShown && node.hit && !pinned)
       pen.line(node.hit->surface.point,
                node.hit->surface.point + node.hit->surface.shading * (0.2 * view.size),
@@ -185,10 +197,11 @@ Frustum frustumOf(const CameraFrame& f, Real distance) {
   return {f.eye, {at(-0.5, 0.5), at(0.5, 0.5), at(0.5, -0.5), at(-0.5, -0.5)}};
 }
 
-std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum) {
+std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum, const Vec3& eye) {
   const RaysView& view = studio.rays;
   const Scene& scene = studio.workspace.document.scene();
-  Pen pen(view.model, studio.theme.scale);
+  constexpr float kThicker = 1.6f;  // to be seen from the last row
+  Pen pen(view.model, studio.theme.scale * (studio.stage ? kThicker : 1));
   const Color accent = toColor(studio.palette().accent), muted = toColor(studio.palette().muted);
   std::optional<std::uint32_t> boxed;  // the object of the part before
   for (const ScenePart& part : view.model.parts) {
@@ -213,13 +226,12 @@ std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum) {
       pen.line(frustum.corners[i], frustum.corners[(i + 1) % 4], muted, 1, 1.2f);
     }
   if (const TracedPixel* pinned = studio.workspace.inspector.pinned(); pinned && view.pinnedShown)
-    addRays(studio, *pinned, true, pen);
-  if (const TracedPixel* before = view.chains.before()) addRays(studio, *before, true, pen);
-  if (const TracedPixel* pixel = shownPixel(studio)) addRays(studio, *pixel, false, pen);
+    addRays(studio, *pinned, true, eye, pen);
+  if (const TracedPixel* before = view.chains.before()) addRays(studio, *before, true, eye, pen);
+  if (const TracedPixel* pixel = shownPixel(studio)) addRays(studio, *pixel, false, eye, pen);
   if (const TracedPixel* pixel = shownPixel(studio); pixel && view.selected >= 0)
     addPhotons(pixel->tree().nodes[static_cast<std::size_t>(view.selected)],
-               toColor(studio.palette().changed), view.fromCamera ? frustum.eye : view.orbit.frame(1).eye,
-               pen);
+               toColor(studio.palette().changed), eye, pen);
   if (view.hierarchyShown && view.boxesOf >= 0)
     for (int i = 0; i < view.box; ++i) {
       const VisitedBox& box = view.boxes[static_cast<std::size_t>(i)];

@@ -19,7 +19,7 @@ struct Frustum {
 };
 Frustum frustumOf(const CameraFrame& frame, Real distance);
 
-/// In the coordinates of the model.
-std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum);
+/// In the coordinates of the model; seen from `eye`, which is in the world's.
+std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum, const Vec3& eye);
 
 }  // namespace trace::studio

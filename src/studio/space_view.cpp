@@ -19,48 +19,77 @@ namespace {
 constexpr float kNear = 6;       // pixels from a ray that count as on it
 constexpr float kHidden = 0.6f;  // opacity of what lies behind surfaces
 
-/// Asks for the scene's triangles when they have changed, and takes those that have come.
+/// Asks for the scene's triangles when they have changed, and takes those that have come. Those of another
+/// scene are gone at once.
 void updateModel(Studio& studio) {
   RaysView& view = studio.rays;
   const auto scene = studio.workspace.document.sharedScene();
+  if (view.modelOf != scene->file) {
+    view.modelOf = scene->file;
+    view.modelScene.reset();
+    view.model = {};
+    view.walls.clear();
+    view.wallsOf.reset();
+    view.built = false;
+  }
   if (view.modelScene != scene) {
     if (!view.modelScene || !sameModel(*view.modelScene, *scene))
       view.modelTask.start([scene, modeler = view.modeler](const Cancelled& cancelled) {
         try {
-          return modeler->model(*scene, cancelled);
+          return RaysView::Modelled{scene->file, modeler->model(*scene, cancelled)};
         } catch (const std::exception&) {  // the render says what is wrong
-          return SceneModel{};
+          return RaysView::Modelled{scene->file, {}};
         }
       });
     view.modelScene = scene;
   }
-  if (auto model = view.modelTask.take()) {
-    if (model->warnings != view.model.warnings) studio.workspace.report(model->warnings);
-    view.model = std::move(*model);
+  if (auto made = view.modelTask.take(); made && made->file == view.modelOf) {
+    if (made->model.warnings != view.model.warnings) studio.workspace.report(made->model.warnings);
+    view.model = std::move(made->model);
     view.drawer->setCorners(view.model.corners);
+    view.built = true;
   }
 }
 
-/// Looks at what the scene's camera sees, once for each file.
+/// Looks at what the scene's camera sees, once for each file; at all there is, until that is known.
 void updateOrbit(Studio& studio) {
   RaysView& view = studio.rays;
-  const auto session = studio.workspace.render.session();
-  if (!session || session->scene().file == view.orbitFile) return;
-  const Box3 all = frameOf(session->scene());
-  Box3 target = seenBy(session->world(), all);
+  const Scene& scene = studio.workspace.document.scene();
+  if (view.orbitFile == scene.file) return;
+  auto session = studio.workspace.render.session();
+  if (session && session->scene().file != scene.file) session.reset();
+  if (!session && view.orbitGuess == scene.file) return;
+  const Box3 all = frameOf(scene);
+  Box3 target = session ? seenBy(session->world(), all) : all;
   if (target.empty()) target = all;
   if (target.empty() || !isFinite(target.size())) target = {{-1, -1, -1}, {1, 1, 1}};
-  view.orbit = OrbitCamera(target, session->scene().camera);
+  view.orbit = OrbitCamera(target, scene.camera);
   view.size = std::max(length(target.size()) / 2, 1e-30);
-  view.orbitFile = session->scene().file;
+  (session ? view.orbitFile : view.orbitGuess) = scene.file;
 }
 
 void updateWalls(Studio& studio) {
   RaysView& view = studio.rays;
   const auto session = studio.workspace.render.session();
-  if (!session || view.wallsOf.lock() == session) return;
+  if (!session || session->scene().file != view.modelOf || view.wallsOf.lock() == session) return;
   view.walls = wallsAround(session->world(), session->scene().camera.position, frameOf(session->scene()));
   view.wallsOf = session;
+}
+
+/// Brings the rays of a pixel into sight once it is chosen.
+void frameRays(Studio& studio) {
+  RaysView& view = studio.rays;
+  const TracedPixel* pixel = shownPixel(studio);
+  const bool shown = pixel && pixel->x == view.clickedX && pixel->y == view.clickedY;
+  if (!view.frameDue || !shown || ImGui::IsMouseDown(0)) return;
+  view.frameDue = false;
+  Box3 box = boundsOf(pixel->segments);
+  if (view.fromCamera || box.empty()) return;
+  const Vec3 least = Vec3(1, 1, 1) * (0.2 * view.size);  // a single place is seen with what is around it
+  const Vec3 room{std::max(0.0, least.x - box.size().x / 2), std::max(0.0, least.y - box.size().y / 2),
+                  std::max(0.0, least.z - box.size().z / 2)};
+  box = {box.low - room, box.high + room};
+  if (length(box.size()) < 8 * view.size) view.orbit.lookAt(box);
 }
 
 void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
@@ -82,13 +111,18 @@ void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
 
 // --- the cursor ---------------------------------------------------------------------------------------
 
-/// Distance in pixels of the cursor from the ray's line on the screen.
-float distanceTo(const RaysView& view, const Matrix4& matrix, ImVec2 low, ImVec2 size,
-                 const RaySegment& line) {
+/// A ray's line on the screen.
+struct ScreenLine {
+  Vec2 from, to;
+};
+
+/// None if it lies behind the eye.
+std::optional<ScreenLine> onScreen(const RaysView& view, const Matrix4& matrix, ImVec2 low, ImVec2 size,
+                                   const RaySegment& line) {
   const auto local = [&](const Vec3& p) { return (p - view.model.origin) / view.model.scale; };
   std::array<double, 4> a = transform(matrix, local(line.from)), b = transform(matrix, local(line.to));
   constexpr double kLeast = 1e-4;
-  if (a[3] < kLeast && b[3] < kLeast) return 1e30f;
+  if (a[3] < kLeast && b[3] < kLeast) return {};
   const auto cut = [](std::array<double, 4>& out, const std::array<double, 4>& in) {
     const double t = (kLeast - out[3]) / (in[3] - out[3]);
     for (std::size_t i = 0; i < 4; ++i) out[i] += t * (in[i] - out[i]);
@@ -98,7 +132,15 @@ float distanceTo(const RaysView& view, const Matrix4& matrix, ImVec2 low, ImVec2
   const auto screen = [&](const std::array<double, 4>& c) {
     return Vec2{low.x + (c[0] / c[3] + 1) / 2 * size.x, low.y + (1 - c[1] / c[3]) / 2 * size.y};
   };
-  const Vec2 p = screen(a), q = screen(b);
+  return ScreenLine{screen(a), screen(b)};
+}
+
+/// Distance in pixels of the cursor from the ray's line on the screen.
+float distanceTo(const RaysView& view, const Matrix4& matrix, ImVec2 low, ImVec2 size,
+                 const RaySegment& line) {
+  const auto seen = onScreen(view, matrix, low, size, line);
+  if (!seen) return 1e30f;
+  const auto& [p, q] = *seen;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const double wx = q.x - p.x, wy = q.y - p.y, l = wx * wx + wy * wy;
   const double t = l > 0 ? std::clamp(((mouse.x - p.x) * wx + (mouse.y - p.y) * wy) / l, 0.0, 1.0) : 0;
@@ -121,6 +163,24 @@ int rayUnderCursor(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVe
     }
   }
   return nearest;
+}
+
+/// The ray under the cursor, here or in the table, over the drawing, which is not drawn again for it.
+void drawHovered(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size, int ray) {
+  const TracedPixel* pixel = shownPixel(studio);
+  if (!pixel || ray < 0 || static_cast<std::size_t>(ray) >= pixel->segments.size()) return;
+  const RaySegment& segment = pixel->segments[static_cast<std::size_t>(ray)];
+  const auto seen = onScreen(studio.rays, matrix, low, size, segment);
+  if (!seen) return;
+  const Color c = lerp(0.5, colourOf(segment.looks, studio.theme.light), Color(studio.theme.light ? 0 : 1));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect(low, {low.x + size.x, low.y + size.y}, true);
+  const auto point = [](const Vec2& p) { return ImVec2(static_cast<float>(p.x), static_cast<float>(p.y)); };
+  list.AddLine(point(seen->from), point(seen->to),
+               ImGui::GetColorU32(
+                   ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1)),
+               4 * studio.theme.scale);
+  list.PopClipRect();
 }
 
 /// How far away is what the middle of the camera's picture shows?
@@ -189,6 +249,7 @@ void drawSwitches(Studio& studio) {
   beside("Reset", 0);
   if (ImGui::Button("Reset")) {
     view.orbitFile.clear();
+    view.orbitGuess.clear();
     view.modelScene.reset();
     view.fromCamera = false;
   }
@@ -203,6 +264,7 @@ void drawSwitches(Studio& studio) {
   ImGui::Checkbox("into closed rooms, from outside", &view.roomOpened);
   ImGui::Checkbox("normals at hits", &view.hitNormalsShown);
   ImGui::Checkbox("pinned rays", &view.pinnedShown);
+  ImGui::Checkbox("a click brings its rays into sight", &view.raysFramed);
   ImGui::Checkbox("hierarchy boxes of the selected ray", &view.hierarchyShown);
   ImGui::SetNextItemWidth(characters(20));
   ImGui::SliderFloat("opacity", &view.opacity, 0.1f, 1, "%.2f");
@@ -269,9 +331,10 @@ void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
 void drawSpace(Studio& studio) {
   RaysView& view = studio.rays;
   if (!view.drawer) view.drawer = std::make_unique<SceneDrawer>();
-  drawSwitches(studio);
+  if (!studio.stage) drawSwitches(studio);
   updateModel(studio);
   updateOrbit(studio);
+  frameRays(studio);
   updateWalls(studio);
   const ImVec2 low = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
   if (size.x < 16 || size.y < 16) return;
@@ -284,6 +347,15 @@ void drawSpace(Studio& studio) {
   const bool clicked = hovered && ImGui::IsMouseReleased(0) && ImGui::GetMouseDragDelta(0).x == 0 &&
                        ImGui::GetMouseDragDelta(0).y == 0;
   const Document& document = studio.workspace.document;
+  if (!view.built) {
+    const char* text = "building ...";
+    const ImVec2 wide = ImGui::CalcTextSize(text);
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + size.x, low.y + size.y},
+                                              ImGui::GetColorU32(ImGuiCol_MenuBarBg));
+    ImGui::GetWindowDrawList()->AddText({low.x + (size.x - wide.x) / 2, low.y + (size.y - wide.y) / 2},
+                                        ImGui::GetColorU32(ImGuiCol_TextDisabled), text);
+    return;
+  }
   const Real aspect = size.x / size.y;
   const CameraFrame camera =
       frame(cameraFor(document.scene(), document.settings()), document.settings().cameraAxes);
@@ -309,12 +381,23 @@ void drawSpace(Studio& studio) {
   const Frustum frustum = frustumOf(camera, 0.5 * view.size / length(camera.look));
   const Texture& picture = studio.picture.pictureTexture;
   if (view.cameraShown && view.pictureShown && !view.fromCamera && !picture.empty()) {
-    drawing.picture = DrawPicture{{}, picture.name(), picture.version(), 0.7f};
+    // While it is rendered it is new many times a second.
+    constexpr double kLeastInterval = 1;  // seconds
+    if (const double now = ImGui::GetTime();
+        !studio.workspace.render.state().working() ||
+        (now - view.pictureSince > kLeastInterval && !view.drawer->coarse())) {
+      view.pictureVersion = picture.version();
+      view.pictureSince = now;
+    }
+    drawing.picture = DrawPicture{{}, picture.name(), view.pictureVersion, 0.7f};
     for (std::size_t i = 0; i < 4; ++i) drawing.picture->corners[i] = view.model.local(frustum.corners[i]);
   }
-  drawing.lines = spaceLines(studio, frustum);
-  ImGui::GetWindowDrawList()->AddImage(view.drawer->show(std::move(drawing)), low,
+  drawing.lines = spaceLines(studio, frustum, world.eye);
+  const bool held = ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
+  const bool rests = !held && studio.window.rested() > RaysView::kRest;
+  ImGui::GetWindowDrawList()->AddImage(view.drawer->show(std::move(drawing), rests), low,
                                        {low.x + size.x, low.y + size.y}, {0, 1}, {1, 0});
+  view.coarse = !held && view.drawer->coarse();
 
   if (hovered && !ImGui::IsMouseDown(0)) {
     const int under = rayUnderCursor(studio, matrix, low, size);
@@ -328,6 +411,7 @@ void drawSpace(Studio& studio) {
     }
     if (clicked && under < 0) selectObjectUnderCursor(studio, world, low, size);
   }
+  drawHovered(studio, matrix, low, size, view.hovered >= 0 ? view.hovered : view.hoveredBefore);
   drawLegend(studio, low, size);
 }
 

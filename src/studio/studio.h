@@ -13,6 +13,7 @@
 #include "studio/file_dialog.h"
 #include "studio/picture_view.h"
 #include "studio/rays_view.h"
+#include "studio/start_page.h"
 #include "studio/theme.h"
 #include "studio/window.h"
 
@@ -44,6 +45,7 @@ struct Studio {
   Layout layout;
   PictureView picture;
   RaysView rays;
+  StartPage start;
   std::string raysTab;     ///< a tab of the panel Rays to bring to the front
   std::string menuToOpen;  ///< by its name, for the keyboard
   FileDialog dialog;
@@ -55,9 +57,11 @@ struct Studio {
     bool hidden = true;            ///< the frame around it
   } keyboard;
   std::uint64_t frames = 0;  ///< drawn so far
+  int scriptFrames = 0;      ///< frames that the current command of a script has seen
   Workspace::Pulse pulse{};  ///< as the last frame showed it
   bool modelling = false;    ///< the view in space gets new triangles
   std::string sceneFile;     ///< that the selection and the views belong to
+  bool stage = false;        ///< picture and view in space alone, large
   bool showHelp = false, showAbout = false, quit = false;
 
   // The scene panel's selection: what kind of thing, and its index.

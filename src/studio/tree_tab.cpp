@@ -11,6 +11,12 @@ namespace {
 
 constexpr int kMostIndented = 12;  // levels: deeper rays stand at the same margin
 
+/// Behind the row of the ray at fault.
+ImU32 faultColour(const Studio& studio) {
+  const ImVec4& c = studio.palette().changed;
+  return ImGui::GetColorU32(ImVec4(c.x, c.y, c.z, 0.3f));
+}
+
 /// With so much room left free below it.
 void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<int>& rows, float below) {
   RaysView& view = studio.rays;
@@ -40,6 +46,7 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
       const RayNode& node = nodes[n];
       ImGui::PushID(i);
       ImGui::TableNextRow();
+      if (i == pixel.why.ray) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, faultColour(studio));
       if (i == view.hoveredBefore)
         ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, ImGui::GetColorU32(ImGuiCol_FrameBgHovered));
       ImGui::TableNextColumn();
@@ -48,6 +55,11 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
           ImGui::Selectable("##row", i == view.selected,
                             ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap);
       const bool overRow = ImGui::IsItemHovered();
+      if (i == pixel.why.ray) {  // also where it is selected
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + 0.25f * ImGui::GetFontSize(), high.y},
+                                                  ImGui::GetColorU32(studio.palette().changed));
+      }
       const float indent =
           static_cast<float>(std::min(pixel.level[n], kMostIndented)) * ImGui::GetFontSize() * 0.75f;
       ImGui::SetCursorPos({start.x + indent, start.y});

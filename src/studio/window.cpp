@@ -25,6 +25,7 @@ struct Window::State {
   std::vector<KeyPress> keys;   // keys of this frame
   InputQueue queue;             // what Dear ImGui, which sees one state in each frame, has not heard of yet
   bool happened = false;        // anything, since the last look
+  double touched = -1;          // when mouse or keyboard did something last
   double heard = 0, slack = 0;  // when events were asked for last, and how long they were not
   double clock = 0;             // clock of Dear ImGui
   ImVec2 pointer{-FLT_MAX, -FLT_MAX};
@@ -33,7 +34,7 @@ struct Window::State {
   int framesDue = 3;          // what happens in a frame may show only in the next
 
   void add(InputEvent event) {
-    event.time = glfwGetTime();
+    event.time = touched = glfwGetTime();
     event.slack = slack;
     queue.add(event);
     happened = true;
@@ -226,6 +227,7 @@ bool Window::quiet() {
   if (state.happened) state.framesDue = kSettlingFrames;
   return state.queue.empty() && state.framesDue == 0;
 }
+double Window::rested() const { return glfwGetTime() - state_->touched; }
 bool Window::closing() const { return glfwWindowShouldClose(state_->window); }
 void Window::keepOpen() { glfwSetWindowShouldClose(state_->window, GLFW_FALSE); }
 void Window::hide() { glfwHideWindow(state_->window); }
@@ -246,6 +248,7 @@ float Window::contentScale() const {
 }
 
 void Window::drop(const std::string& file) { state_->dropped.push_back(file); }
+void Window::feed(const InputEvent& event) { state_->add(event); }
 std::vector<std::string> Window::takeDropped() { return std::exchange(state_->dropped, {}); }
 
 const std::vector<KeyPress>& Window::keys() const { return state_->keys; }

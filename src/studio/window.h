@@ -14,7 +14,7 @@ namespace trace::studio {
 /// A key that went down, with those that were held.
 struct KeyPress {
   static constexpr int kEscape = 256, kEnter = 257, kDelete = 261, kF1 = 290, kF5 = 294, kF10 = 299,
-                       kKeypadEnter = 335;
+                       kF11 = 300, kKeypadEnter = 335;
 
   int key;  ///< what it writes, a capital letter for letters, '=' for plus; else GLFW's code
   bool control, shift, alt;
@@ -35,6 +35,8 @@ class Window {
   void endFrame();
   /// Nothing that happened up to now waits for a frame.
   bool quiet();
+  /// Seconds since mouse or keyboard did something.
+  double rested() const;
   bool closing() const;
   void keepOpen();  ///< takes back the wish to close
   void hide();
@@ -48,6 +50,8 @@ class Window {
   std::vector<std::string> takeDropped();
   /// As if the file were dropped onto the window.
   void drop(const std::string& file);
+  /// As if it came from the mouse or the keyboard.
+  void feed(const InputEvent& event);
   /// Keys that went down in this frame.
   const std::vector<KeyPress>& keys() const;
   /// The pixels of the last frame.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "shading/cameras/camera.h"
@@ -48,6 +49,39 @@ TEST(Placing, TakesNoMatrixThatLosesTheObject) {
   Affine gone = kPlaced;
   gone.offset.x = infinite;
   EXPECT_FALSE(keepsObject(gone));
+}
+
+TEST(Placing, ANewObjectStandsOnWhatTheCameraLooksAt) {
+  Camera camera;
+  camera.position = {0, 3, 6}, camera.viewdir = {0, -3, -6}, camera.fov = 40;
+  const CameraFrame view = frame(camera, CameraAxes::orthonormal);
+  const Box3 unit{{-1, -1, -1}, {1, 1, 1}};
+  SurfacePoint floor{};
+  floor.normal = floor.shading = {0, 1, 0};
+  const Affine on = placedInSight(unit, view, camera.updir, floor, 5);
+  const Box3 box = on * unit;
+  EXPECT_NEAR(box.low.y, 0, 1e-12);
+  EXPECT_NEAR(box.center().x, 0, 1e-12);
+  EXPECT_NEAR(box.center().z, 0, 1e-12);
+  // A quarter of what the camera sees there, from bottom to top.
+  EXPECT_NEAR(box.size().y, 0.25 * 2 * std::tan(20 * kPi / 180) * std::sqrt(45.0), 1e-9);
+  // The scene a thousand times as large: so is the object.
+  camera.position = camera.position * 1000;
+  const CameraFrame far = frame(camera, CameraAxes::orthonormal);
+  EXPECT_NEAR((placedInSight(unit, far, camera.updir, floor, 5) * unit).size().y, 1000 * box.size().y, 1e-6);
+}
+
+TEST(Placing, ANewObjectIsBeforeAWallAndInTheAirIfThereIsNothing) {
+  Camera camera;
+  camera.position = {0, 0, 6}, camera.viewdir = {0, 0, -1};
+  const CameraFrame view = frame(camera, CameraAxes::orthonormal);
+  const Box3 unit{{-1, -1, -1}, {1, 1, 1}};
+  SurfacePoint wall{};
+  wall.normal = wall.shading = {0, 0, -1};  // its other side is seen
+  EXPECT_NEAR((placedInSight(unit, view, camera.updir, wall, 5) * unit).low.z, 0, 1e-12);
+  expectNear((placedInSight(unit, view, camera.updir, {}, 5) * unit).center(), {0, 0, 1});
+  const Box3 endless{{-kInfinity, -kInfinity, 0}, {kInfinity, kInfinity, 0}};
+  EXPECT_EQ(placedInSight(endless, view, camera.updir, wall, 5), Affine{});
 }
 
 TEST(Placing, TakesNoCameraThatSeesNothing) {

@@ -393,6 +393,27 @@ TEST(OrbitCamera, SeesItsTargetAndTheSceneCameraAndTurnsAboutTheTarget) {
   }
 }
 
+TEST(OrbitCamera, LooksAtABoxFromTheSameSide) {
+  Camera camera;
+  camera.position = {3, 2, 4}, camera.viewdir = {-3, -2, -4};
+  OrbitCamera orbit({{-1, -1, -1}, {1, 1, 1}}, camera);
+  const Vec3 before = orbit.frame(1).ahead;
+  const Box3 box{{5, 5, 5}, {6, 7, 8}};
+  orbit.lookAt(box);
+  EXPECT_LT(length(orbit.frame(1).ahead - before), 1e-12);
+  const Matrix4 matrix = projection(orbit.frame(1), 0.01, 100);
+  Real widest = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto c =
+        transform(matrix, {corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                           corner & 4 ? box.high.z : box.low.z});
+    ASSERT_GT(c[3], 0);
+    for (std::size_t i = 0; i < 2; ++i) widest = std::max(widest, std::abs(c[i]) / c[3]);
+  }
+  EXPECT_LE(widest, 1);
+  EXPECT_GE(widest, 0.4);
+}
+
 TEST(OrbitCamera, TheViewFromTheCameraShowsItsPictureWhole) {
   Camera camera;
   camera.position = {1, 2, 3}, camera.aspectratio = 1.6;

@@ -83,6 +83,20 @@ TEST_F(WorkspaceTest, WhatIsChosenBeforeASceneIsOpenHoldsForAllThatAreOpened) {
   EXPECT_EQ(workspace.commandLine.size(), 2u);
 }
 
+TEST_F(WorkspaceTest, ANewSceneIsWrittenAndOpenedButOverNoFile) {
+  Workspace workspace;
+  workspace.commandLine = {{"width", "20", {}}};
+  workspace.startScene(path("scene.ray"));  // which there is
+  EXPECT_FALSE(settled(workspace));
+  EXPECT_FALSE(workspace.document.isOpen());
+  workspace.startScene(path("first.ray"));
+  ASSERT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.document.file(), path("first.ray"));
+  EXPECT_GT(workspace.document.scene().objects.size(), 3u);
+  EXPECT_TRUE(std::filesystem::exists(path("first.ray")));
+  EXPECT_EQ(workspace.newSceneFile(), path("scene-2.ray"));
+}
+
 TEST_F(WorkspaceTest, WithoutASceneNothingIsWritten) {
   Workspace workspace;
   workspace.saveScene(path("kept.ray"));
@@ -146,19 +160,41 @@ TEST_F(WorkspaceTest, AFileThatIsGoneIsToldOnce) {
   EXPECT_EQ(again.scene().objects.size(), workspace.document.scene().objects.size());
 }
 
-TEST_F(WorkspaceTest, ThePictureOfAnotherSceneIsDevelopedAsThatSays) {
+TEST_F(WorkspaceTest, OnceAnotherSceneIsOpenNothingOfTheOneBeforeIsShown) {
   writeFile(path("bright.ray"), readFile(path("scene.ray")) + "\nsettings { exposure = 3; }\n");
   Workspace workspace;
   ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "20", {}}}));
   waitFor(workspace.render);
   ASSERT_TRUE(opened(workspace, path("bright.ray"), {{"width", "20", {}}}));
   const auto session = workspace.render.session();
-  const Settings shown = workspace.shownSettings();
-  if (session == workspace.render.session()) {  // else it has just changed
-    EXPECT_EQ(shown.exposure, session->settings().exposure);
+  if (session) {
+    EXPECT_EQ(session->scene().file, workspace.document.scene().file);
+  } else if (const Picture picture = workspace.render.picture(); !workspace.render.session()) {
+    EXPECT_EQ(picture.width, 0);
   }
+  EXPECT_EQ(workspace.shownSettings().exposure, 3);
   waitFor(workspace.render);
   EXPECT_EQ(workspace.shownSettings().exposure, 3);
+}
+
+TEST_F(WorkspaceTest, DirectLightIsShownWhilePhotonsAreSentAndAnEditEndsThem) {
+  writeFile(path("photons.ray"),
+            "SBT-raytracer 1.0\nsettings { integrator = photon; photons = 20000000; width = 64; spp = 1; }\n"
+            "camera { position = (0, 0, 6); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 40; }\n"
+            "point_light { position = (30, 0, 90); color = (1, 1, 1); constant_attenuation_coeff = 1; }\n"
+            "sphere { material = { diffuse = (0.8, 0.5, 0.2) } }\n");
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("photons.ray")));
+  while (workspace.render.picture().width == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::building);
+  const Picture early = workspace.render.picture();
+  EXPECT_EQ(early.width, 64);
+  EXPECT_GT(early.at(32, early.height / 2).r, 0);
+  workspace.document.choose("photons", "1000");
+  workspace.update();
+  waitFor(workspace.render);
+  EXPECT_EQ(workspace.render.state().phase, BackgroundRender::Phase::finished);
+  EXPECT_EQ(workspace.render.session()->settings().photons, 1000);
 }
 
 TEST_F(WorkspaceTest, AFileThatAnEditNamesIsReadOrTheEditIsNotTaken) {

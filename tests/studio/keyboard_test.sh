@@ -46,7 +46,7 @@ pressUntil() { # KEY LANDMARK
 # Menus.
 press F10
 is popup open "F10 opens a menu"
-is focused 'action Open scene...' "the keyboard is at its first entry"
+is focused 'action New scene...' "the keyboard is at its first entry"
 pressUntil Down 'action Open reference...'
 press Right
 is focused 'action Undo' "Right opens the next menu"

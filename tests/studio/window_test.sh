@@ -205,7 +205,79 @@ count() { grep "^$2 " "$1" | cut -d' ' -f2; }
   fail "the view in space is drawn in every frame"
 (($(count after space-drawn) > $(count before space-drawn))) ||
   fail "the view in space does not show what is selected"
-(($(count idle frames) <= $(count after frames) + 12)) || fail "frames are drawn while nothing happens"
+# A few steps make the view in space smooth.
+(($(count idle frames) <= $(count after frames) + 16)) || fail "frames are drawn while nothing happens"
+
+# The mouse over the view in space draws no surface again; a drag does, and what it ends with becomes smooth.
+cat >script <<'END'
+wait
+set width 64
+wait
+pixel 20 20
+rays
+hover 2 space
+screenshot before.png space
+state before
+hover 10 space
+state hovered
+drag 10 space
+state dragged
+screenshot turned.png space
+END
+"$studio" scene.ray --script script >log 2>&1 || fail "the view in space cannot be turned"
+(($(count hovered space-drawn) == $(count before space-drawn))) || fail "the view in space is drawn for the mouse"
+(($(count dragged space-drawn) >= $(count hovered space-drawn) + 8)) || fail "the view in space does not turn"
+! cmp -s before.png turned.png || fail "the view in space is as before it was turned"
+
+# When another scene is opened, nothing of the one before stays; why a pixel is black, and what cures it.
+cp -- "$root/scenes/lessons/black-glass.ray" black.ray
+cat >script <<'END'
+open black.ray
+set width 240
+wait
+pixel 75 78
+rays
+state black
+drag 0 cure Pin and try depth 5
+wait
+rays
+state cured
+action Undo
+wait
+rays
+state undone
+END
+"$studio" scene.ray --script script >log 2>&1 || fail "a black pixel is not explained"
+grep -q '^why Black: the ray that should leave glass was not sent: depth limit 1\.$' black || fail "it does not say why a pixel is black"
+(($(count black fault) > 0)) || fail "no ray is at fault"
+grep -q ' cure depth 2$' black || fail "no button deepens by one"
+grep -q '^chosen depth 5$' cured || fail "the cure does not choose the depth"
+grep -q '^pinned yes$' cured || fail "the cure does not pin the rays"
+grep -q '^fault -1$' cured || fail "the cure does not cure"
+grep -q '^chosen depth 1$' undone || fail "the cure is not undone"
+
+# The start page has lessons; a click opens one. The stage shows picture and rays alone, and steps through them.
+cat >script <<'END'
+state start
+drag 0 start Black glass
+wait
+set width 240
+wait
+pixel 75 78
+rays
+action Stage
+state staged
+screenshot staged.png
+action Stage
+state left
+END
+"$studio" --script script >log 2>&1 || fail "the start page or the stage is not shown"
+grep -q ' start Shadow acne$' start || fail "the start page has no lessons"
+grep -q '^file black-glass.ray$' staged || fail "a click on a lesson does not open it"
+grep -q '^stage yes$' staged || fail "there is no stage"
+grep -q ' stage caption$' staged || fail "the stage has no caption"
+! grep -q ' panel Log$' staged || fail "the stage shows panels"
+grep -q '^stage no$' left || fail "the stage is not left"
 
 # Files dropped onto the window; from a bad sample to its rays, and through them one by one; a background; themes.
 cat >bad.ray <<'END'

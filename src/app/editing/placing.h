@@ -1,6 +1,10 @@
 // How a person turns and stretches an object, in steps that multiply what is there; and what may be typed.
 #pragma once
 
+#include <optional>
+
+#include "geometry/ray.h"
+#include "math/box.h"
 #include "math/transform.h"
 #include "shading/cameras/camera.h"
 
@@ -18,6 +22,12 @@ Affine stretched(const Affine& placed, const Vec3& factors);
 /// An object that is placed so is still there when the scene is read again: the transform is finite and does
 /// not make it flat.
 bool keepsObject(const Affine& placed);
+
+/// A new object in the middle of the camera's picture: it stands on what is there, or floats `ahead` of the
+/// camera where nothing is, and fills about a quarter of the picture's height. Its own bounds are `bounds`;
+/// one without an end stays as it is made.
+Affine placedInSight(const Box3& bounds, const CameraFrame& camera, const Vec3& updir,
+                     const std::optional<SurfacePoint>& there, Real ahead);
 
 /// Readers take the camera: its field of view, its aspect ratio and its axes make a picture.
 bool cameraSees(const Camera& camera);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/compare/difference.h"
+#include "app/editing/first_scene.h"
 #include "app/editing/scene_changes.h"
 #include "app/editing/texture_edits.h"
 #include "app/session/output.h"
@@ -93,8 +94,30 @@ void Workspace::fail(const std::vector<Message>& errors) {
 
 void Workspace::open(const std::string& file) {
   asked_ = {absolute(file), writtenAt(file)};
-  opening_.start([path = asked_->file, choices = commandLine](const Cancelled&) {
+  openFrom(asked_->file, {});
+}
+
+void Workspace::startScene(const std::string& file) {
+  asked_.reset();
+  openFrom(absolute(file), [path = absolute(file)] {
+    if (fs::exists(path))
+      throw Error(Fault::usage, Place{.file = path}, "not written: there is such a file",
+                  "a new scene overwrites nothing; choose another name");
+    writeFile(path, std::string(kFirstScene));
+  });
+}
+
+std::string Workspace::newSceneFile() const {
+  const fs::path folder = document.isOpen() ? fs::path(document.file()).parent_path() : fs::current_path();
+  fs::path file = folder / "scene.ray";
+  for (int i = 2; fs::exists(file); ++i) file = folder / ("scene-" + std::to_string(i) + ".ray");
+  return file.string();
+}
+
+void Workspace::openFrom(const std::string& path, const std::function<void()>& first) {
+  opening_.start([path, first, choices = commandLine](const Cancelled&) {
     return outcomeOf(path, [&] {
+      if (first) first();
       Document opened;
       opened.open(path, choices);
       return opened;

@@ -8,6 +8,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,10 @@ class Workspace {
   /// Opens a scene and renders it. Until it is read, or if that fails, the one before stays; where there is
   /// none, the file is read again as soon as it changes.
   void open(const std::string& file);
+  /// Writes a first scene to a file that does not exist yet, and opens it.
+  void startScene(const std::string& file);
+  /// "scene.ray" in the folder of the document, or the current one; or a name there that no file has.
+  std::string newSceneFile() const;
   /// Called often: takes what was done in the background, renders after changes, reads the file again when it
   /// changed on disk, collects messages.
   void update();
@@ -160,6 +165,7 @@ class Workspace {
     bool anew = false;  ///< the file was there once, and was gone
   };
 
+  void openFrom(const std::string& path, const std::function<void()>& first);
   void takeOpened();
   void openIfMended();
   bool lookNow();  ///< it is time to look at the disk

@@ -34,6 +34,9 @@ void arrange(TracedPixel& pixel) {
     pixel.hasChildren[parent] = 1;
   }
   pixel.ways = pathWays(pixel.tree());
+  const Session& session = *pixel.session;
+  pixel.why = whyOf(pixel.tree(), pixel.scene(), session.settings(),
+                    session.settings().exposure + session.measuredExposure());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/explain/path_ways.h"
+#include "app/explain/pixel_why.h"
 #include "app/explain/ray_segments.h"
 #include "app/explain/ray_view.h"
 #include "app/session/background_task.h"
@@ -25,6 +26,7 @@ struct TracedPixel {
   std::vector<PathWay> ways{};  ///< that its paths from both ends were joined in
   /// A remark on parts of the picture that its rays do not explain; "" if none.
   std::string note{};
+  PixelWhy why{};         ///< why the sample has its colour
   std::string problem{};  ///< why there are no rays; "" if there are
 
   const RayTree& tree() const { return explanation.tree; }

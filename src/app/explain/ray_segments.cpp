@@ -49,4 +49,13 @@ std::vector<RaySegment> raySegments(const RayTree& tree) {
   return segments;
 }
 
+Box3 boundsOf(const std::vector<RaySegment>& segments) {
+  Box3 box;
+  for (const RaySegment& segment : segments) {
+    if (segment.looks != RayLooks::camera) box.extend(segment.from);
+    if (!segment.leaves) box.extend(segment.to);
+  }
+  return box;
+}
+
 }  // namespace trace

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "math/box.h"
 #include "render/rays/ray_tree.h"
 
 namespace trace {
@@ -19,5 +20,9 @@ const MediumTerm* scatteredIn(const RayNode& node);
 
 /// One for each ray, in the tree's order. What leaves the scene is drawn for a third of the tree's size.
 std::vector<RaySegment> raySegments(const RayTree& tree);
+
+/// Around the places that the rays came to and the lights that they asked; neither the camera nor what leaves
+/// the scene. Empty if there are none.
+Box3 boundsOf(const std::vector<RaySegment>& segments);
 
 }  // namespace trace

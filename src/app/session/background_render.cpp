@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "render/integrators/make_integrator.h"
 #include "render/picture/passes.h"
+#include "scene/integrators.h"
+#include "scene/options.h"
 
 namespace trace {
 namespace {
@@ -26,6 +29,19 @@ Settings reduced(const Settings& settings, Size whole, int factor) {
     small.region = {r.x0 / factor, r.y0 / factor, up(r.x1), up(r.y1)};
   }
   return small;
+}
+
+/// Settings of the direct light, if the integrator prepares something before it traces; none if it does not.
+std::optional<Settings> directLightOf(const Settings& settings) {
+  const bool photons = hasTrait(settings, Trait::photons);
+  const bool caustics = settings.caustics > 0 && findOption("caustics").concerns(settings);
+  const bool cache = settings.irradianceCache > 0 && findOption("irradiance-cache").concerns(settings);
+  if (!photons && !caustics && !cache) return {};
+  Settings direct = settings;
+  if (photons || cache) direct.integrator = IntegratorKind::direct;
+  direct.caustics = 0;
+  direct.irradianceCache = 0;
+  return direct;
 }
 
 }  // namespace
@@ -60,6 +76,11 @@ void BackgroundRender::start(std::shared_ptr<const Scene> scene, const Settings&
     const std::lock_guard lock(mutex_);
     request_ = Request{std::move(scene), settings, std::move(sceneAt), state_.number + 1};
     state_ = {Phase::building, 0, 0, {}, request_->number};
+    if (session_ && session_->scene().file != request_->scene->file) {  // nobody should take it for this one
+      session_.reset();
+      coarse_ = {};
+      denoised_.reset();
+    }
     begin_ = std::chrono::steady_clock::now();
     remaining_ = {};
   }
@@ -72,6 +93,8 @@ void BackgroundRender::stop() {
   if (!state_.working()) return;
   state_.phase = Phase::stopped;
   coarseJob_.cancel = true;
+  early_ = {};
+  if (building_) building_->job().cancel = true;
   if (session_) session_->job().cancel = true;
 }
 
@@ -79,6 +102,7 @@ BackgroundRender::State BackgroundRender::state() {
   const std::lock_guard lock(mutex_);
   if (state_.working()) {
     state_.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    if (state_.phase == Phase::building && building_) state_.fraction = building_->job().fraction();
     if (state_.phase == Phase::tracing) {
       const Film& film = session_->film();
       state_.fraction =
@@ -99,6 +123,7 @@ Picture BackgroundRender::picture() const {
   std::shared_ptr<Session> session;
   {
     const std::lock_guard lock(mutex_);
+    if (early_.width > 0) return early_;
     if (!session_) return {};
     if (denoised_) return *denoised_;
     picture = coarse_;
@@ -158,10 +183,21 @@ void BackgroundRender::run(const Request& request) {
   const auto session = std::make_shared<Session>();
   session->job().patience = {};  // who stops it wants to see something else
   session->open(*request.scene, request.settings, request.sceneAt);
-  session->build(built_.get());
-  built_ = session;
   const auto isCurrent = [&] { return state_.number == request.number && state_.working(); };
   {
+    const std::lock_guard lock(mutex_);
+    if (!isCurrent()) return;
+    building_ = session;
+  }
+  const auto noLonger = [this](const void*) {
+    const std::lock_guard lock(mutex_);
+    building_.reset();
+    early_ = {};
+  };
+  {
+    const std::unique_ptr<const void, decltype(noLonger)> scope(this, noLonger);
+    session->build(built_.get(), [&] { showDirectLight(*session, request.number); });
+    built_ = session;
     const std::lock_guard lock(mutex_);
     const std::vector<Message>& warnings = session->messages().all();
     messages_.insert(messages_.end(), warnings.begin(), warnings.end());
@@ -174,11 +210,18 @@ void BackgroundRender::run(const Request& request) {
       coarse_ = {};
     else if (session_)
       session_->film().copyDone(coarse_);
+    if (early_.width == size.width && early_.height == size.height) coarse_ = std::move(early_);
     session_ = session;
     denoised_.reset();
     state_.phase = Phase::coarse;
+    state_.fraction = 0;
   }
-  coarsePasses(*session);
+  coarsePasses(session->moments(), session->settings(), session->size(), [&](Picture picture) {
+    const std::lock_guard lock(mutex_);
+    coarse_ = std::move(picture);
+    ++coarseVersion_;
+    return true;
+  });
   {
     const std::lock_guard lock(mutex_);
     if (!isCurrent()) return;
@@ -207,20 +250,35 @@ void BackgroundRender::run(const Request& request) {
   }
 }
 
-void BackgroundRender::coarsePasses(Session& session) {
-  const Size size = session.size();
+void BackgroundRender::coarsePasses(std::span<const Moment> moments, const Settings& settings, Size size,
+                                    const std::function<bool(Picture)>& show) {
   for (const int factor : kCoarse) {
     if (size.width / factor < kLeastPreview) continue;
-    const Settings settings = reduced(session.settings(), size, factor);
-    Film film = makeFilm(settings, settings.width, settings.height);
+    const Settings small = reduced(settings, size, factor);
+    Film film = makeFilm(small, small.width, small.height);
     coarseJob_.done = 0;
     coarseJob_.total = 0;
-    if (trace::render(session.moments(), settings, film, coarseJob_).end != End::finished) return;
-    Picture picture = enlarged(film.picture(), size);
-    const std::lock_guard lock(mutex_);
-    coarse_ = std::move(picture);
-    ++coarseVersion_;
+    if (trace::render(moments, small, film, coarseJob_).end != End::finished) return;
+    if (!show(enlarged(film.picture(), size))) return;
   }
+}
+
+void BackgroundRender::showDirectLight(const Session& session, std::uint64_t number) {
+  const std::optional<Settings> settings = directLightOf(session.settings());
+  if (!settings) return;
+  const std::unique_ptr<const Integrator> integrator = makeIntegrator(session.world(), *settings, coarseJob_);
+  const Moment moment{&session.world(), integrator.get()};
+  const Size size = session.size();
+  coarsePasses({&moment, 1}, *settings, size, [&](Picture picture) {
+    const std::lock_guard lock(mutex_);
+    if (state_.number != number || !state_.working()) return false;
+    const bool fits =
+        !session_ || (session_->size().width == size.width && session_->size().height == size.height);
+    if (!fits) return false;  // what is shown besides, such as samples, is of another size
+    early_ = std::move(picture);
+    ++coarseVersion_;
+    return true;
+  });
 }
 
 }  // namespace trace

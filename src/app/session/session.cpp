@@ -194,9 +194,10 @@ void Session::prepareFilm() {
   film_ = std::make_unique<Film>(makeFilm(settings_, picture.width, picture.height, names_));
 }
 
-void Session::build(const Session* before) {
+void Session::build(const Session* before, const std::function<void()>& compiled) {
   const Stopwatch watch;
   compileWorld(before);
+  if (compiled) compiled();
   buildMoments();
   warnOfSettings(scene_, settings_, *world_, messages_);
   warnOfEmptyMedia(scene_, messages_);

@@ -62,8 +62,9 @@ class Session {
   Size size() const { return pictureSize(settings_, scene_.camera); }
 
   /// Builds the World and makes the film. Throws Error; Error(Fault::limit) if memory will not do. What has
-  /// not changed since a session built before is shared with it.
-  void build(const Session* before = nullptr);
+  /// not changed since a session built before is shared with it. `compiled` is called once the World is
+  /// there, before what the integrator prepares, such as photons.
+  void build(const Session* before = nullptr, const std::function<void()>& compiled = {});
   /// Makes what turns samples that others took into the picture: as build(), but nothing that traces it, such
   /// as photons.
   void buildToFinish();

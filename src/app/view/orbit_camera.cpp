@@ -49,6 +49,12 @@ CameraFrame fitted(const CameraFrame& camera, Real viewAspect) {
 
 OrbitCamera::OrbitCamera() : height_(2 * std::tan(kFieldOfView * kPi / 360)) {}
 
+void OrbitCamera::lookAt(const Box3& target) {
+  target_ = target.center();
+  const Real slope = height_ / 2;
+  distance_ = std::max(1e-30, kMargin * length(target.size()) / 2 * std::hypot(1, slope) / slope);
+}
+
 OrbitCamera::OrbitCamera(const Box3& target, const Camera& camera) : OrbitCamera() {
   Box3 all = target;
   all.extend(camera.position);

@@ -40,6 +40,9 @@ class OrbitCamera {
   void move(Real right, Real up);
   void approach(Real factor);  ///< below 1 comes nearer
 
+  /// Turns no further, but has the box in sight.
+  void lookAt(const Box3& target);
+
   CameraFrame frame(Real viewAspect) const;
   Real distance() const { return distance_; }
   const Vec3& target() const { return target_; }

@@ -1,9 +1,9 @@
-// The scene that `ray new` writes.
+// The scene that `ray new` and the menu of the studio write.
 #pragma once
 
 #include <string_view>
 
-namespace trace::cli {
+namespace trace {
 
 inline constexpr std::string_view kFirstScene = R"(Trace 1
 
@@ -38,4 +38,4 @@ for i in 0..8 {
 // point_light { position = (-3, 5, 4); radius = 0.4 }
 )";
 
-}  // namespace trace::cli
+}  // namespace trace

@@ -1,0 +1,41 @@
+// Why a pixel has its colour, in one sentence; the sum that it is; and what would change it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "render/rays/ray_tree.h"
+#include "scene/settings.h"
+
+namespace trace {
+
+/// A summand of the camera ray's radiance: the terms of one kind and one light together.
+struct WhySummand {
+  std::string name;  ///< "reflection", "light lamp"
+  Color color;
+  int ray = -1;  ///< the first ray that it came along; -1: none
+};
+
+/// A change that may cure the pixel: a value of an option, or a thing of the scene to look at.
+struct WhyCure {
+  std::string label;  ///< "depth 5", "Select shade"
+  std::string_view option{};
+  std::string value{};
+  std::optional<std::uint32_t> object{};  ///< index into Scene::objects
+};
+
+struct PixelWhy {
+  std::string sentence;  ///< "Black: the ray that should leave ball was not sent: depth limit 1."
+  int ray = -1;          ///< the ray at fault; -1: none is
+  std::vector<WhySummand> sum;
+  std::vector<WhyCure> cures;  ///< the strongest last
+};
+
+/// Explains the sample that the tree has. Black and dark are judged as the picture shows them, with this exposure
+/// in stops.
+PixelWhy whyOf(const RayTree& tree, const Scene& scene, const Settings& settings, Real exposure);
+
+}  // namespace trace

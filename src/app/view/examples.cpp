@@ -1,0 +1,95 @@
+#include "app/view/examples.h"
+
+#include <array>
+#include <exception>
+#include <filesystem>
+#include <utility>
+
+#include "app/session/session.h"
+#include "app/view/picture_views.h"
+#include "image/development.h"
+#include "scene/integrators.h"
+
+namespace trace {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Row {
+  const char *file, *title, *about;
+};
+
+constexpr std::array kExamples{
+    Row{"shapes.ray", "Shapes", "what objects there are"},
+    Row{"glass.ray", "Glass", "what the index of refraction does"},
+    Row{"materials.ray", "Materials", "highlights and mirrors"},
+    Row{"shadows.ray", "Shadows", "of glass and of lights with a size"},
+    Row{"csg.ray", "Solids of solids", "union, intersection and difference"},
+    Row{"mirrors.ray", "Mirrors", "in mirrors"},
+    Row{"textures.ray", "Textures", "colours that are patterns"},
+    Row{"chess.ray", "Chess", "a board with its pieces"},
+};
+constexpr std::array kLessons{
+    Row{"lessons/black-glass.ray", "Black glass", "Why is the ball black?"},
+    Row{"lessons/light-in-a-box.ray", "Light in a box", "Why does the light not light?"},
+    Row{"lessons/shadow-acne.ray", "Shadow acne", "Where do the specks come from?"},
+    Row{"lessons/wrong-normals.ray", "Wrong normals", "What shades the roof?"},
+};
+
+template <std::size_t kCount>
+std::vector<ExampleScene> found(const std::string& folder, const std::array<Row, kCount>& rows) {
+  std::vector<ExampleScene> scenes;
+  if (folder.empty()) return scenes;
+  for (const Row& row : rows) {
+    std::error_code none;
+    if (const fs::path file = fs::path(folder) / row.file; fs::exists(file, none))
+      scenes.push_back({row.title, row.about, file.string()});
+  }
+  return scenes;
+}
+
+}  // namespace
+
+std::string examplesFolder(const std::string& program) {
+  const fs::path folder = fs::path(program).parent_path();
+  for (const char* place :
+       {"../share/doc/trace/scenes", "../share/doc/trace-ray/scenes", "../../../scenes"}) {
+    std::error_code none;
+    if (const fs::path scenes = folder / place; fs::exists(scenes / kExamples.front().file, none))
+      return scenes.lexically_normal().string();
+  }
+  return "";
+}
+
+std::vector<ExampleScene> examplesIn(const std::string& folder) { return found(folder, kExamples); }
+std::vector<ExampleScene> lessonsIn(const std::string& folder) { return found(folder, kLessons); }
+
+Bytes thumbnail(const std::string& file, int width) {
+  constexpr int kSamples = 4;
+  try {
+    Session whole;
+    whole.open(file, std::vector<Choice>{{"width", std::to_string(width), {}}});
+    Settings settings = whole.settings();
+    settings.height = 0;
+    settings.region = {};
+    settings.spp = kSamples;
+    settings.noiseTarget = 0;
+    settings.subdivide = 0;
+    settings.denoise = false;
+    settings.shutter = 0;
+    settings.caustics = 0;
+    if (hasTrait(settings, Trait::bounces) || hasTrait(settings, Trait::byChains))
+      settings.integrator = IntegratorKind::direct;
+    settings.threads = 1;  // the window comes first
+    Session small;
+    small.open(whole.scene(), settings);
+    small.build();
+    small.renderPicture();
+    const Picture levels = developed(small.picture(), developmentOf(small.settings()));
+    return exposed(levels, 0, settings.rounding);
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+}  // namespace trace

@@ -1,0 +1,81 @@
+#include "studio/stage.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studio/actions.h"
+#include "studio/landmarks.h"
+#include "studio/panels.h"
+#include "studio/ray_rows.h"
+#include "studio/rays_view.h"
+#include "studio/studio.h"
+
+namespace trace::studio {
+namespace {
+
+/// The ray that was reached in words, or why the pixel has its colour.
+void drawCaption(Studio& studio) {
+  const RaysView& view = studio.rays;
+  const TracedPixel* pixel = shownPixel(studio);
+  ImGui::PushTextWrapPos();
+  if (!pixel) {
+    ImGui::TextDisabled("Click on the picture. Space: the next ray. F11 or Esc: back.");
+  } else if (const int ray = view.step - 1; view.step > 0 && ray < static_cast<int>(view.rays)) {
+    ImGui::TextColored(rayColour(studio, *pixel, ray), "%d of %d  %s: %s", view.step,
+                       static_cast<int>(view.rays), rayName(*pixel, ray),
+                       sentence(rayAt(pixel->tree(), ray), pixel->scene()).c_str());
+  } else {
+    ImGui::TextUnformatted(pixel->why.sentence.c_str());
+  }
+  ImGui::PopTextWrapPos();
+  landmark("stage caption");
+}
+
+}  // namespace
+
+void toggleStage(Studio& studio) {
+  studio.stage = !studio.stage;
+  studio.themeChanged = true;  // all is larger on it
+}
+
+void stepOnStage(Studio& studio) {
+  RaysView& view = studio.rays;
+  if (!shownPixel(studio)) return;
+  if (view.step >= static_cast<int>(view.rays))
+    view.step = -1;
+  else
+    stepRays(studio, 1);
+}
+
+void drawStage(Studio& studio) {
+  takeKeys(studio);
+  const ImGuiViewport& window = *ImGui::GetMainViewport();
+  ImGui::SetNextWindowPos(window.Pos);
+  ImGui::SetNextWindowSize(window.Size);
+  ImGui::Begin("stage", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse |
+                   ImGuiWindowFlags_NoNav);
+  updateRays(studio);
+  const float below = 2 * ImGui::GetTextLineHeightWithSpacing();
+  const ImVec2 room = ImGui::GetContentRegionAvail(), gap = ImGui::GetStyle().ItemSpacing;
+  const bool wide = room.x > room.y;
+  const ImVec2 half = wide ? ImVec2{std::floor((room.x - gap.x) / 2), room.y - below}
+                           : ImVec2{room.x, std::floor((room.y - below - gap.y) / 2)};
+  ImGui::BeginChild("stage picture", half, false,
+                    ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+  drawPictureAlone(studio);
+  ImGui::EndChild();
+  if (wide) ImGui::SameLine();
+  ImGui::BeginChild("stage space", half, false, ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav);
+  studio.rays.hovered = -1;
+  drawSpace(studio);
+  studio.rays.hoveredBefore = studio.rays.hovered;
+  ImGui::EndChild();
+  drawCaption(studio);
+  ImGui::End();
+}
+
+}  // namespace trace::studio

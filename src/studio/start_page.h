@@ -1,0 +1,35 @@
+// The page in place of the picture while no scene is open: lessons, scenes and recent files.
+#pragma once
+
+#include <imgui.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/session/background_task.h"
+#include "app/view/examples.h"
+#include "studio/texture.h"
+
+namespace trace::studio {
+
+struct Studio;
+
+struct StartPage {
+  std::string folder;  ///< folder of the scenes that come with the program; "" if there is none
+  std::vector<ExampleScene> lessons, scenes;
+  /// Small pictures of the lessons, then of the scenes, as far as they are made.
+  std::vector<std::unique_ptr<Texture>> pictures;
+  struct Thumbnail {
+    Bytes bytes;
+  };
+  BackgroundTask<Thumbnail> task;
+  bool looked = false;  ///< for the scenes
+  bool complete() const { return looked && pictures.size() == lessons.size() + scenes.size(); }
+  /// A small picture is there to be shown.
+  bool news(bool sceneIsOpen) const { return !sceneIsOpen && task.pending() && !task.busy(); }
+};
+
+void drawStart(Studio& studio, ImVec2 area);
+
+}  // namespace trace::studio

@@ -1,0 +1,36 @@
+// The scenes of the studio's start page.
+#include "app/view/examples.h"
+
+#include <gtest/gtest.h>
+
+#include "support/paths.h"
+
+namespace trace::test {
+namespace {
+
+TEST(StartPage, HasLessonsAndScenesThatCanBeRendered) {
+  const std::string folder = sourceFolder() + "/scenes";
+  const std::vector<ExampleScene> lessons = lessonsIn(folder), scenes = examplesIn(folder);
+  EXPECT_EQ(lessons.size(), 4u);
+  EXPECT_EQ(scenes.size(), 8u);
+  for (const auto& list : {lessons, scenes})
+    for (const ExampleScene& scene : list) {
+      const Bytes picture = thumbnail(scene.file, 32);
+      EXPECT_EQ(picture.width, 32) << scene.file;
+      EXPECT_FALSE(scene.title.empty() || scene.about.empty());
+    }
+}
+
+TEST(StartPage, WithoutAFolderItHasNone) {
+  EXPECT_TRUE(lessonsIn("").empty());
+  EXPECT_TRUE(examplesIn("/nothing").empty());
+  EXPECT_EQ(examplesFolder("/nothing/bin/ray-studio"), "");
+  EXPECT_EQ(thumbnail("/nothing.ray", 32).width, 0);
+}
+
+TEST(StartPage, FindsTheScenesOfACheckout) {
+  EXPECT_EQ(examplesFolder(sourceFolder() + "/build/release/bin/ray-studio"), sourceFolder() + "/scenes");
+}
+
+}  // namespace
+}  // namespace trace::test
