@@ -3,7 +3,7 @@
 #include <array>
 
 #include "app/lint/lint.h"
-#include "app/session/auto_exposure.h"
+#include "app/advice/auto_exposure.h"
 #include "app/session/json.h"
 #include "app/session/render_warnings.h"
 #include "app/session/session.h"

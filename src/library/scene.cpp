@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "app/lint/lint.h"
-#include "app/session/auto_exposure.h"
+#include "app/advice/auto_exposure.h"
 #include "app/session/output.h"
 #include "app/session/render_warnings.h"
 #include "base/file.h"

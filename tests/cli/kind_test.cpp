@@ -1,7 +1,7 @@
 // Scenes that leave things to Trace: files of the kind `Trace 1`, bare meshes, and --quality.
 #include <gtest/gtest.h>
 
-#include "app/session/auto_exposure.h"
+#include "app/advice/auto_exposure.h"
 #include "app/session/session.h"
 #include "formats/format.h"
 #include "formats/kind_defaults.h"

@@ -133,7 +133,7 @@ translate(0,1,0, sphere { material = { library = glass; } })
   EXPECT_LT(shadowOf("bdpt.png"), 0.95 * shadowOf("path.png"));
 }
 
-// --- first aid: app/session/first_aid.h ---------------------------------------------------------------
+// --- first aid: app/advice/first_aid.h ---------------------------------------------------------------
 
 TEST_F(Silence, APictureThatIsBrighterThanWhiteIsToldWithAnExposureThatHelps) {
   write("white.ray", replaced(kFirst, "color = (1, 1, 1)", "color = (4e4, 4e4, 4e4)"));

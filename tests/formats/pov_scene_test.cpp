@@ -12,6 +12,9 @@
 #include "geometry/shapes/isosurface.h"
 #include "geometry/shapes/prism.h"
 #include "geometry/shapes/torus.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/spot_light.h"
 #include "shading/materials/phong.h"
 #include "shading/textures/solid.h"
 #include "support/paths.h"
@@ -174,16 +177,16 @@ TEST(PovScene, Lights) {
       "spotlight point_at 0 radius "
       "10 falloff 20 tightness 5 } light_source { 10 * y, 1 parallel point_at 0 } light_source { y, 1 "
       "area_light x * 2, z * 2, 3, 3 }");
-  const auto& point = std::get<PointLight>(scene.lights.at(0).light);
+  const auto& point = *scene.lights.at(0).light.as<PointLight>();
   EXPECT_EQ(point.position, (Vec3{1, 2, -3}));
   EXPECT_EQ(point.constant, 0.5);
   EXPECT_EQ(point.quadratic, 0.5 / 16);
-  const auto& spot = std::get<SpotLight>(scene.lights.at(1).light);
+  const auto& spot = *scene.lights.at(1).light.as<SpotLight>();
   EXPECT_EQ(spot.angle, 20);
   EXPECT_EQ(spot.fullAngle, 10);
   EXPECT_EQ(spot.exponent, 5);
-  expectNear(std::get<DirectionalLight>(scene.lights.at(2).light).direction, {0, -1, 0});
-  EXPECT_EQ(std::get<PointLight>(scene.lights.at(3).light).radius, 1);
+  expectNear(scene.lights.at(2).light.as<DirectionalLight>()->direction, {0, -1, 0});
+  EXPECT_EQ(scene.lights.at(3).light.as<PointLight>()->radius, 1);
 }
 
 TEST(PovScene, GammaAndDepth) {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "app/lint/checks.h"
-#include "app/session/darkness.h"
-#include "app/session/missing_caustic.h"
+#include "app/advice/darkness.h"
+#include "app/advice/missing_caustic.h"
 #include "scene/integrators.h"
 #include "shading/lights/spot_light.h"
 

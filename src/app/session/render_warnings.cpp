@@ -8,7 +8,7 @@
 #include <string>
 #include <type_traits>
 
-#include "app/session/missing_caustic.h"
+#include "app/advice/missing_caustic.h"
 #include "base/text.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"

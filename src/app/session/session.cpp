@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "app/session/auto_exposure.h"
+#include "app/advice/auto_exposure.h"
 #include "app/session/render_warnings.h"
 #include "base/budget.h"
 #include "base/file.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "app/session/first_aid.h"
+#include "app/advice/first_aid.h"
 #include "app/session/denoising.h"
 #include "app/session/output.h"
 #include "base/error.h"
@@ -108,7 +108,7 @@ class Session {
   /// The same, however long it takes.
   std::string save(const std::string& path);
 
-  /// A warning if the finished picture is not worth looking at, with a cure (app/session/first_aid.h).
+  /// A warning if the finished picture is not worth looking at, with a cure (app/advice/first_aid.h).
   std::optional<Message> firstAid() const { return trace::firstAid(scene_, settings_, *world_, *film_); }
 
   const std::vector<Phase>& phases() const { return phases_; }

@@ -13,6 +13,10 @@
 #include "geometry/shapes/sphere.h"
 #include "geometry/traced.h"
 #include "image/codec.h"
+#include "shading/lights/ambient_light.h"
+#include "shading/lights/directional_light.h"
+#include "shading/lights/point_light.h"
+#include "shading/lights/spot_light.h"
 
 namespace trace::pov {
 namespace {

@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 #include <string_view>
-#include <variant>
 
 #include "render/rays/ray_tree.h"
+#include "shading/lights/ambient_light.h"
 
 namespace trace {
 namespace {
@@ -29,7 +29,7 @@ std::string layerName(std::string_view name) {
 std::vector<std::size_t> unnamedLights(const Scene& scene) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (scene.lights[i].links.name.empty() && !std::holds_alternative<AmbientLight>(scene.lights[i].light))
+    if (scene.lights[i].links.name.empty() && !scene.lights[i].light.is<AmbientLight>())
       found.push_back(i);
   return found;
 }
@@ -56,7 +56,7 @@ GroupNames groupNames(const Scene& scene) {
   const bool manyObjects = unnamedEmitters(scene).size() > kMostUnnamed;
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const std::string& name = scene.lights[i].links.name;
-    const bool isAmbient = std::holds_alternative<AmbientLight>(scene.lights[i].light);
+    const bool isAmbient = scene.lights[i].light.is<AmbientLight>();
     names.lights.push_back(isAmbient       ? ""
                            : !name.empty() ? name
                            : manyLights    ? std::string(kUnnamedLights)

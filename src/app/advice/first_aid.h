@@ -13,7 +13,7 @@
 
 namespace trace {
 
-/// A warning if the picture is nearly black (app/session/darkness.h), if a large part of it is brighter than
+/// A warning if the picture is nearly black (app/advice/darkness.h), if a large part of it is brighter than
 /// a file can show, or if it has one colour; nothing of pictures that show data, or a part only.
 std::optional<Message> firstAid(const Scene& scene, const Settings& settings, const World& world,
                                 const Film& film);

@@ -1,9 +1,9 @@
-#include "app/session/auto_exposure.h"
+#include "app/advice/auto_exposure.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/session/darkness.h"
+#include "app/advice/darkness.h"
 #include "image/development.h"
 #include "image/srgb.h"
 #include "scene/integrators.h"

@@ -1,12 +1,12 @@
-#include "app/session/first_aid.h"
+#include "app/advice/first_aid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
-#include "app/session/auto_exposure.h"
-#include "app/session/darkness.h"
+#include "app/advice/auto_exposure.h"
+#include "app/advice/darkness.h"
 #include "image/development.h"
 #include "render/samples/sampler.h"
 #include "scene/integrators.h"

@@ -1,4 +1,4 @@
-#include "app/session/darkness.h"
+#include "app/advice/darkness.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/session/missing_caustic.h"
+#include "app/advice/missing_caustic.h"
 
 #include <algorithm>
 
