@@ -69,7 +69,7 @@ def rmse(a, b):
 
 
 def by_trace(args, scene, picture):
-    command = [args.ray, scene, picture, "-w", str(args.width), "--spp", "4", "--time-limit", str(args.limit),
+    command = [args.ray, scene, picture, "-w", str(args.width), "--spp", "9", "--time-limit", str(args.limit),
                "--threads", "1"]
     run = subprocess.run(command, capture_output=True, text=True, errors="replace",
                          timeout=args.limit * 4 + 60)

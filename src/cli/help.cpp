@@ -75,7 +75,7 @@ std::string rangeText(const Option& option) {
   switch (option.kind) {
     case Option::Kind::boolean: return "on or off";
     case Option::Kind::choice: return joined(option.choices, ", ");
-    case Option::Kind::choices: return "none, or some of " + joined(option.choices, ",");
+    case Option::Kind::choices: return "none, all, or some of " + joined(option.choices, ",");
     case Option::Kind::color:
       return "a grey, or red,green,blue, from " + toText(option.least) + " to " + toText(option.most);
     case Option::Kind::region: return "x0,y0,x1,y1";

@@ -29,18 +29,18 @@ press() { xdotool key "$@"; next; }
 
 # Left and right go from menu to menu, round the bar.
 press alt+f
-is focused 'action Open scene...' "Alt+F opens the first menu"
+is focused 'action New scene...' "Alt+F opens the first menu"
 press Right
 is focused 'action Undo' "Right opens the next"
 press Right
 is focused 'action Render' "and the next"
 press Left
 press Left
-is focused 'action Open scene...' "Left goes back"
+is focused 'action New scene...' "Left goes back"
 press Left
 is focused 'action Keys and mouse' "round the bar to the last"
 press Right
-is focused 'action Open scene...' "and to the first again"
+is focused 'action New scene...' "and to the first again"
 is popup open "all the while a menu is open"
 press Escape
 is popup none "Esc closes it"

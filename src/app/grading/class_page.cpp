@@ -67,20 +67,37 @@ std::string pointsText(double points) {
   return result;
 }
 
-/// The words of a cell: the mistakes, or the verdict.
+/// The start of a text, as far as a cell has room.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 90;
+  if (text.size() <= kMost) return text;
+  std::size_t end = text.rfind(' ', kMost);
+  if (end == text.npos) end = kMost;
+  while (end > 0 && (text[end] & 0xC0) == 0x80) --end;  // whole characters
+  return text.substr(0, end) + " ...";
+}
+
+/// The words of a cell: the mistakes, why there is no picture, or the verdict.
 std::string cellText(const GradedPair& pair) {
   std::string text;
   for (const std::string& mistake : pair.mistakes) text += (text.empty() ? "" : ", ") + mistake;
-  return text.empty() ? std::string(verdictText(pair.verdict)) : text;
+  if (!text.empty()) return text;
+  return pair.verdict == Verdict::unreadable && pair.cpu >= 0 ? shortened(pair.problem)
+                                                              : std::string(verdictText(pair.verdict));
 }
 
-/// "1.24 s (Trace 0.51 s)"; "" if no program was run.
+/// "1.24 s", "9 ms".
+std::string secondsText(double seconds) {
+  char text[40];
+  seconds < 1 ? std::snprintf(text, sizeof text, "%.0f ms", 1000 * seconds)
+              : std::snprintf(text, sizeof text, "%.2f s", seconds);
+  return text;
+}
+
+/// "1.24 s (Trace 510 ms)"; "" if no program was run.
 std::string timeText(const GradedPair& pair) {
   if (pair.cpu < 0) return "";
-  char text[80];
-  std::snprintf(text, sizeof text, pair.ourCpu < 0 ? "%.2f s" : "%.2f s (Trace %.2f s)", pair.cpu,
-                pair.ourCpu);
-  return text;
+  return secondsText(pair.cpu) + (pair.ourCpu < 0 ? "" : " (Trace " + secondsText(pair.ourCpu) + ")");
 }
 
 std::string detailText(const ClassTask& task, const ClassStudent& student, const GradedPair& pair) {
@@ -107,8 +124,8 @@ std::string cellHtml(const ClassTask& task, const ClassStudent& student, std::si
     html += "<img class=\"test\" alt=\"\" src=\"" + dataAddress("jpeg", pair.testPicture) + "\">";
   if (!pair.heatPicture.empty())
     html += "<img class=\"heat\" alt=\"\" hidden src=\"" + dataAddress("jpeg", pair.heatPicture) + "\">";
-  return html + "<span class=\"" + (good ? "good" : "bad") + "\">" + pointsText(student.points[i]) + " " +
-         escaped(cellText(pair)) + "</span>" +
+  return html + "<span class=\"" + (good ? "good" : "bad") + "\">" + "<b>" + pointsText(student.points[i]) +
+         "</b> " + escaped(cellText(pair)) + "</span>" +
          (pair.cpu < 0 ? "" : "<span class=\"faint\">" + timeText(pair) + "</span>") + "</td>";
 }
 
@@ -180,7 +197,7 @@ std::string classCsv(const ClassGrades& grades) {
       text += "," + pointsText(student.points[i]) + "," + std::string(verdictText(pair.verdict)) + "," +
               csvField(pair.cause.empty() ? pair.problem : pair.cause);
       for (const double seconds : {pair.cpu, pair.ourCpu})
-        text += "," + (seconds < 0 ? "" : pointsText(seconds));
+        text += "," + (seconds < 0 ? "" : toText(seconds));
     }
     text += "\r\n";
   }

@@ -11,7 +11,6 @@ CameraNode Reader::camera() {
   CameraNode c;
   c.place = place(peek());
   expectMark("{", "after camera");
-  bool angled = false;
   const auto moved = [&](const Affine& by) {
     c.location = by * c.location;
     c.direction = linear(by, c.direction);
@@ -71,10 +70,6 @@ CameraNode Reader::camera() {
       c.angle = number();
       comma();
       if (startsNumber()) number();
-      angled = true;
-      if (c.angle > 0 && c.angle < 180 && (c.kind == "perspective" || c.kind == "orthographic") &&
-          length(c.direction) > 0)
-        c.direction = normalize(c.direction) * (length(c.right) / 2 / std::tan(c.angle * kPi / 360));
     } else if (w == "focal_point") {
       c.focalPoint = vector();
     } else if (w == "aperture") {
@@ -95,7 +90,10 @@ CameraNode Reader::camera() {
            "such words are location, look_at, angle, right, up, sky, direction");
     }
   }
-  (void)angled;
+  // The angle is that between the sides, whatever the order of the words.
+  if (c.angle > 0 && c.angle < 180 && (c.kind == "perspective" || c.kind == "orthographic") &&
+      length(c.direction) > 0)
+    c.direction = normalize(c.direction) * (length(c.right) / 2 / std::tan(c.angle * kPi / 360));
   return c;
 }
 

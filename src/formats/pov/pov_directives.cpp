@@ -220,7 +220,7 @@ Numbers Reader::condition() {
     if (!takesMark("(")) expected("\"(\" and a condition");
     const Numbers value = expression(true);
     expectMark(")", "after the condition");
-    constexpr std::string_view kOperators = "&|+-*/=<>!";
+    constexpr std::string_view kOperators = "&|*/=>!";  // < begins a vector
     const Token& after = rawPeek();
     if (after.is(Token::Kind::mark) && kOperators.find(after.text[0]) != std::string_view::npos)
       return binary(0, value, true);
@@ -276,7 +276,10 @@ void Reader::directive(const Token& at) {
     const Token how = raw();
     if (how.text == "read")
       fail(at, "#fopen " + std::string(name.text) + " reads a file of data, which Trace does not");
-    return leaveOut(at, "#fopen, which writes a file,");
+    if (!warnings_.again("fopen"))
+      warnings_.warn(place(at), "#fopen and #write write a file, which Trace does not",
+                     "the picture is the same", "fopen");
+    return;
   }
   if (d == "fclose") {
     raw();

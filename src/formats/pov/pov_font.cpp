@@ -39,6 +39,22 @@ Font::Font(std::string_view bytes) : bytes_(bytes) {
   glyf_ = offset("glyf");
   loca_ = offset("loca");
   hmtx_ = offset("hmtx");
+  try {
+    kern_ = offset("kern");
+  } catch (const Error&) {  // it has none
+  }
+}
+
+Real Font::kerning(std::uint32_t left, std::uint32_t right) const {
+  if (kern_ == 0 || number(kern_, 2) != 0 || number(kern_ + 2, 2) == 0) return 0;
+  const std::uint32_t coverage = number(kern_ + 8, 2);
+  if ((coverage & 1) == 0 || coverage >> 8 != 0) return 0;  // not horizontal, or of another format
+  const std::uint32_t pairs = number(kern_ + 10, 2), wanted = indexOf(left) << 16 | indexOf(right);
+  for (std::uint32_t i = 0; i < pairs; ++i) {
+    const std::size_t at = kern_ + 18 + 6 * static_cast<std::size_t>(i);
+    if (number(at, 4) == wanted) return signedNumber(at + 4) / em_;
+  }
+  return 0;
 }
 
 std::uint32_t Font::indexOf(std::uint32_t character) const {
@@ -230,9 +246,10 @@ Font::Glyph Font::glyph(std::uint32_t character) const {
 void Reader::textShape(Node& node, const Token& at) {
   constexpr std::size_t kMostLetters = 10000;
   std::string file;
-  if (takesName("internal_font"))
-    whole(), file = "timrom.ttf";
-  else {
+  if (takesName("internal_font") || takesName("internal")) {
+    constexpr const char* kFonts[]{"timrom.ttf", "cyrvetic.ttf", "crystal.ttf", "povlogo.ttf"};
+    file = kFonts[std::clamp(whole(), 1, 4) - 1];
+  } else {
     takesName("ttf");
     file = text();
   }
@@ -267,6 +284,7 @@ void Reader::textShape(Node& node, const Token& at) {
     for (std::size_t i = 0; i < said.size(); ++i) {
       checkBudget();
       const auto c = static_cast<unsigned char>(said[i]);
+      if (i > 0) pen.x += font.kerning(static_cast<unsigned char>(said[i - 1]), c);
       const Font::Glyph glyph = font.glyph(c);
       if (!glyph.outlines.empty()) {
         Prism shape;

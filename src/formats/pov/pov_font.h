@@ -26,6 +26,8 @@ class Font {
 
   /// That of a character; the font's sign for missing ones where it has none.
   Glyph glyph(std::uint32_t character) const;
+  /// The correction of the distance between two letters, in ems.
+  Real kerning(std::uint32_t left, std::uint32_t right) const;
 
  private:
   struct Corner {
@@ -39,7 +41,7 @@ class Font {
   void corners(std::uint32_t glyph, std::vector<Corner>& to, int depth) const;
 
   std::string_view bytes_;
-  std::size_t cmap_ = 0, glyf_ = 0, loca_ = 0, hmtx_ = 0;
+  std::size_t cmap_ = 0, kern_ = 0, glyf_ = 0, loca_ = 0, hmtx_ = 0;
   std::uint32_t metrics_ = 1;
   bool longOffsets_ = false;
   Real em_ = 1000;

@@ -438,8 +438,10 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
     const FinishNode& f = layer.finish ? *layer.finish : kUsual;
     tell(f.left);
     if (layer.normal) tell(layer.normal->left);
+    // The mean reflectance of a surface of that brilliance.
+    const Real strength = f.diffuse * 2 / (1 + std::max(f.brilliance, 0.0));
     l.diffuse = paint(
-        p, [&](const Numbers& c) { return notBelowZero(rgb(c) * (shown(c) * f.diffuse)); }, uv);
+        p, [&](const Numbers& c) { return notBelowZero(rgb(c) * (shown(c) * strength)); }, uv);
     l.ambient = paint(
         p, [&](const Numbers& c) { return notBelowZero(rgb(c) * f.ambient * shown(c)); }, uv);
     if (!isBlack(f.emission))

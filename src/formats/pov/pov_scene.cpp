@@ -472,12 +472,18 @@ void Builder::settings() {
   if (!isBlack(world_.ambientLight))
     scene_.lights.push_back({AmbientLight{world_.ambientLight}, Place{.file = scene_.file}});
   for (const FogNode& fog : world_.fogs) {
-    if (fog.type == 2 || &fog != &world_.fogs.front()) {
-      leaveOut(fog.place, fog.type == 2 ? "fog that lies on the ground" : "a second fog");
+    if (&fog != &world_.fogs.front()) {
+      leaveOut(fog.place, "a second fog");
       continue;
     }
     if (!(fog.distance > 0)) continue;
-    choose("fog", shortest(1 / fog.distance));
+    Real density = 1 / fog.distance;
+    if (fog.type == 2 && fog.height > 0) {  // as much of it above a place as POV-Ray has
+      constexpr Real kMostRise = 3;
+      density *= std::exp(std::clamp(fog.offset / fog.height, -kMostRise, kMostRise));
+      choose("fog-height", shortest(fog.height));
+    }
+    choose("fog", shortest(density));
     choose("fog-color", shortest(std::clamp(fog.color.r, 0.0, 1.0)) + "," +
                             shortest(std::clamp(fog.color.g, 0.0, 1.0)) + "," +
                             shortest(std::clamp(fog.color.b, 0.0, 1.0)));

@@ -43,7 +43,7 @@ const ImageMap* normalMap(const Texture& texture) {
 }
 
 /// A material's own textures and heights, up to three where a mesh mixes materials.
-struct Heights {
+struct BumpHeights {
   struct Part {
     const Texture* texture;
     Real height;
@@ -82,7 +82,7 @@ void World::bend(const Ray& ray, Hit& hit) const {
 }
 
 Vec3 World::bentNormal(const Ray& ray, const Hit& hit, Bent what) const {
-  Heights heights;
+  BumpHeights heights;
   const SurfacePoint& surface = hit.surface;
   const Vec3 smooth = surface.shading;
   Vec3 turned;  // how far pictures of normals turn it
