@@ -8,6 +8,7 @@
 #include "app/session/session.h"
 #include "geometry/shapes/cube.h"
 #include "geometry/shapes/sphere.h"
+#include "shading/lights/ambient_light.h"
 #include "support/scenes.h"
 
 namespace trace::test {
