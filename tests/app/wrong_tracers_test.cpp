@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The room of scene_cause_test.cpp.
-constexpr const char* kRoom = R"(SBT-raytracer 1.0
+constexpr const char* kWrongRoom = R"(SBT-raytracer 1.0
 settings { width = 96; depth = 2; }
 camera { position = (0, 2.4, 7); look_at = (0, 0.7, 0); fov = 36; aspectratio = 1.5; }
 point_light { name = "key"; position = (-3, 5, 4); color = (0.7, 0.66, 0.6); constant_attenuation_coeff = 0.4; linear_attenuation_coeff = 0.1; quadratic_attenuation_coeff = 0; }
@@ -124,7 +124,7 @@ class WrongTracers : public testing::Test {
  protected:
   /// The picture of the room, edited.
   Picture rendered(const Wrong& wrong) const {
-    std::string text = kRoom;
+    std::string text = kWrongRoom;
     if (!wrong.from.empty()) {
       EXPECT_NE(text.find(wrong.from), text.npos) << wrong.student;
       for (std::size_t at = 0; (at = text.find(wrong.from, at)) != text.npos; at += wrong.to.size() + 1)
@@ -149,7 +149,7 @@ class WrongTracers : public testing::Test {
 
 TEST_F(WrongTracers, EachIsNamed) {
   fs::create_directories(root_ / "scenes");
-  writeFile(root_ / "scenes/Room.ray", kRoom);
+  writeFile(root_ / "scenes/Room.ray", kWrongRoom);
   hand("ref/room.png", rendered({"", ""}));
   hand("in/right/room.png", rendered({"", ""}));
   const std::vector<Wrong> all = wrongTracers();
