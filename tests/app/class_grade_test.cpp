@@ -202,14 +202,14 @@ TEST_F(ClassGradeTest, ScenesAreRenderedAgainIfAnyFileOfTheStudentHasChanged) {
 
 TEST_F(ClassGradeTest, ThePageAndTheTableEscapeWhatStudentsWrote) {
   picture("ref/a.png", classPicture());
-  picture("in/=<b>\"x/a.png", classPicture(1, 0));
+  picture("in/=<u>\"x/a.png", classPicture(1, 0));
   const ClassGrades grades = gradeClass(task());
   const std::string page = classPage(task(), grades), csv = classCsv(grades);
-  EXPECT_EQ(page.find("<b>"), std::string::npos);
-  EXPECT_NE(page.find("=&lt;b&gt;&quot;x"), std::string::npos);
+  EXPECT_EQ(page.find("<u>"), std::string::npos);
+  EXPECT_NE(page.find("=&lt;u&gt;&quot;x"), std::string::npos);
   for (const char* outside : {"http:", "https:", "src=\"//", "<link", "@import"})
     EXPECT_EQ(page.find(outside), std::string::npos) << outside;
-  EXPECT_NE(csv.find("\r\n\"'=<b>\"\"x\",0,1,0,beyond,"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\r\n\"'=<u>\"\"x\",0,1,0,beyond,"), std::string::npos) << csv;
 }
 
 TEST_F(ClassGradeTest, ARubricSaysWhereItIsWrong) {
