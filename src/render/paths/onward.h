@@ -108,7 +108,7 @@ inline Onward::Onward(const Interaction& at, Real spectrum, std::optional<Real> 
 }
 
 inline std::optional<Onward::Ray> Onward::intoLobe(const BsdfSample& drawn, const Color& weight) const {
-  std::optional<Ray> ray(std::in_place, RayKind::bounce, drawn.toLight, weight, drawn.density);
+  std::optional<Ray> ray(Ray{RayKind::bounce, drawn.toLight, weight, drawn.density});
   if (at_.transmits && dot(drawn.toLight, at_.normal) < 0) ray->behind = at_.behind();
   return ray;
 }
