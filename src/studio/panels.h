@@ -20,7 +20,7 @@ std::span<const Panel> panels();
 
 // The functions of the table; each in its own file.
 void drawPicture(Studio&);
-/// The picture without what is around it, in the rest of the child window.
+/// The picture without its surroundings, in the rest of the child window.
 void drawPictureAlone(Studio&);
 void drawControls(Studio&);
 void drawScene(Studio&);

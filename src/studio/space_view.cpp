@@ -85,7 +85,7 @@ void frameRays(Studio& studio) {
   view.frameDue = false;
   Box3 box = boundsOf(pixel->segments);
   if (view.fromCamera || box.empty()) return;
-  const Vec3 least = Vec3(1, 1, 1) * (0.2 * view.size);  // a single place is seen with what is around it
+  const Vec3 least = Vec3(1, 1, 1) * (0.2 * view.size);  // a single place is seen with its surroundings
   const Vec3 room{std::max(0.0, least.x - box.size().x / 2), std::max(0.0, least.y - box.size().y / 2),
                   std::max(0.0, least.z - box.size().z / 2)};
   box = {box.low - room, box.high + room};

@@ -117,7 +117,8 @@ class Reader {
   void leaveOut(const Token& at, const std::string& what, const std::string& hint = {});
 
   // --- expressions (pov_expressions.cpp) ---
-  /// What may stand behind #declare NAME =; elements of an array may lack commas, so they compare nothing.
+  /// A value that may stand behind #declare NAME =; elements of an array may lack commas, so they compare
+  /// nothing.
   Value anyValue(bool compares = true);
   Numbers expression(bool compares = false);
   Numbers binary(int least, Numbers left, bool compares);

@@ -112,7 +112,7 @@ class Lamps {
     Real density(const Vec3& from, const Vec3& at) const;
     /// A rectangle as it is seen from there, where that differs from its area as seen from far away.
     std::optional<SphericalRectangle> seen(const Vec3& from) const;
-    /// The same per area, for a way there of that length.
+    /// Its density per area, for a way there of that length.
     Real densityByArea(const Vec3& to, Real away2, Real away) const {
       const Real facing = std::abs(dot(to, normal)) / (away * normalLength);
       return facing > 0 ? away2 / (facing * size) : 0;
