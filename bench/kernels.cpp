@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "report.h"
 
 namespace trace::bench {

@@ -22,7 +22,7 @@ cli studio library'
 rooms='formats/ray syntax read language file write
 app advice session lint explain compare grading editing view
 render world maps rays samples lights media paths photons integrators chains picture'
-most=30  # files in a room
+most=30  # files in a folder, without those in folders below it
 
 cd -- "${1:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
 for list in material texture light; do
@@ -45,15 +45,13 @@ if grep -rnE '[!=]= *IntegratorKind::' src; then
   echo 'ask for a trait (scene/integrators.h), not for one integrator'
   exit 1
 fi
-while read -r folder names; do
-  for room in $names; do
-    count="$(find "src/$folder/$room" -type f | wc -l)"
-    if ((count > most)); then
-      echo "src/$folder/$room has $count files; a room has at most $most"
-      exit 1
-    fi
-  done
-done <<<"$rooms"
+while read -r folder; do
+  count="$(find "$folder" -maxdepth 1 -type f | wc -l)"
+  if ((count > most)); then
+    echo "$folder has $count files; a folder has at most $most: give it rooms"
+    exit 1
+  fi
+done < <(find src -type d)
 { grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]*[<"]' src || true; } | FLOORS="$floors" ROOMS="$rooms" awk '
   function complain(what) { print file ":" number ": error: " what; wrong++ }
   function isIn(path, folder) { return substr(path, 1, length(folder) + 1) == folder "/" }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/budget.h"
-#include "base/read_scope.h"
+#include "base/files/read_scope.h"
 
 namespace trace {
 

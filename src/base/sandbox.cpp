@@ -15,7 +15,7 @@
 
 #include "base/budget.h"
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 
 #if defined(__linux__)
 

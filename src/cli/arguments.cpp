@@ -9,7 +9,7 @@
 #include <map>
 
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/flags.h"
 #include "scene/option_words.h"
 

@@ -11,9 +11,9 @@
 
 #include "app/compare/difference.h"
 #include "base/enum_set.h"
-#include "cli/console.h"
-#include "cli/progress.h"
-#include "image/flip.h"
+#include "cli/terminal/console.h"
+#include "cli/terminal/progress.h"
+#include "image/comparison/flip.h"
 #include "scene/options.h"
 
 namespace trace::cli {

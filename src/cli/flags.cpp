@@ -7,8 +7,8 @@
 
 #include "app/compare/extensions.h"
 #include "base/text.h"
-#include "cli/completion.h"
-#include "cli/manual.h"
+#include "cli/text/completion.h"
+#include "cli/text/manual.h"
 
 namespace trace::cli {
 namespace {

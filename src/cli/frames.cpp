@@ -6,12 +6,12 @@
 
 #include "app/session/remaining_time.h"
 #include "base/budget.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/render_steps.h"
 #include "formats/format.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 
 namespace trace::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cli/arguments.h"
-#include "cli/console.h"
+#include "cli/terminal/console.h"
 
 namespace trace::cli {
 

@@ -1,6 +1,6 @@
 // ray: the command line of Trace. See commands.cpp for what it can do.
-#include "base/streams.h"
-#include "cli/commands.h"
+#include "base/files/streams.h"
+#include "cli/commands/commands.h"
 
 #if defined(__GLIBC__)
 #include <malloc.h>

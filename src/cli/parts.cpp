@@ -9,12 +9,12 @@
 #include "app/session/film_file.h"
 #include "app/session/remaining_time.h"
 #include "app/session/version.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/frames.h"
 #include "cli/render_steps.h"
-#include "cli/terminal.h"
+#include "cli/terminal/terminal.h"
 
 namespace trace::cli {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "app/session/session.h"
 #include "cli/arguments.h"
-#include "cli/console.h"
+#include "cli/terminal/console.h"
 
 namespace trace::cli {
 

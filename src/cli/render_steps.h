@@ -7,10 +7,10 @@
 
 #include "app/session/session.h"
 #include "cli/arguments.h"
-#include "cli/console.h"
-#include "cli/progress.h"
-#include "cli/terminal.h"
-#include "cli/watch.h"
+#include "cli/terminal/console.h"
+#include "cli/terminal/progress.h"
+#include "cli/terminal/terminal.h"
+#include "cli/terminal/watch.h"
 
 namespace trace::cli {
 

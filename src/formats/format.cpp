@@ -10,11 +10,11 @@
 #include <utility>
 
 #include "base/budget.h"
-#include "base/file.h"
-#include "base/read_scope.h"
+#include "base/files/file.h"
+#include "base/files/read_scope.h"
 #include "formats/composer/composer_format.h"
 #include "formats/inventor/inventor_format.h"
-#include "formats/mesh/gltf_format.h"
+#include "formats/mesh/gltf/gltf_format.h"
 #include "formats/mesh/mesh_writers.h"
 #include "formats/mesh/obj_format.h"
 #include "formats/mesh/off_format.h"
@@ -34,7 +34,8 @@ namespace {
 
 using Suffixes = std::array<std::string_view, 1>;
 constexpr std::array<std::string_view, 2> kScene{".ray", ".tr"};
-constexpr Suffixes kRay{".ray"}, kOut{".out"}, kPly{".ply"}, kObj{".obj"}, kOff{".off"}, kStl{".stl"}, kPov{".pov"};
+constexpr Suffixes kRay{".ray"}, kOut{".out"}, kPly{".ply"}, kObj{".obj"}, kOff{".off"}, kStl{".stl"},
+    kPov{".pov"};
 constexpr std::array<std::string_view, 2> kGltf{".gltf", ".glb"}, kInventor{".wrl", ".iv"};
 
 constexpr std::array kFormats{

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "formats/format.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 
 namespace trace {
 namespace {

@@ -8,7 +8,7 @@
 #include "base/match.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 #include "geometry/traced.h"
 #include "shading/lights/ambient_light.h"
 #include "shading/lights/directional_light.h"

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/file.h"
-#include "base/read_scope.h"
+#include "base/files/file.h"
+#include "base/files/read_scope.h"
 #include "shading/textures/image_map.h"
 #include "shading/textures/mix.h"
 #include "shading/textures/ramp.h"

@@ -8,12 +8,12 @@
 #include <set>
 #include <utility>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/textures.h"
 #include "geometry/field_value.h"
-#include "geometry/shapes/csg_tree.h"
-#include "image/codec.h"
-#include "image/picture_name.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "image/codecs/codec.h"
+#include "image/codecs/picture_name.h"
 
 namespace trace {
 namespace {

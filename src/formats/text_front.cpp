@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/budget.h"
-#include "base/named_file.h"
+#include "base/files/named_file.h"
 #include "base/text.h"
 #include "formats/words.h"
 

@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "base/budget.h"
-#include "base/named_file.h"
+#include "base/files/named_file.h"
+#include "base/files/read_scope.h"
 #include "base/parallel.h"
-#include "base/read_scope.h"
-#include "image/codec.h"
-#include "image/picture_name.h"
+#include "image/codecs/codec.h"
+#include "image/codecs/picture_name.h"
 #include "scene/input_files.h"
 
 namespace trace {

@@ -19,13 +19,13 @@ namespace trace {
 /// Reads the pictures of the scene's textures and background, each file once, and notes them in
 /// Scene::inputs. One that is missing or broken is a warning, the last, and a checker in its place; then it
 /// returns false. Throws Error(Fault::limit) where memory lacks, and ReadDenied for one that may not be read
-/// (base/read_scope.h).
+/// (base/files/read_scope.h).
 bool loadTextures(Scene& scene, Messages& messages);
 
 /// Is it that warning?
 bool isOfUnreadTextures(const Message& warning);
 
-/// The path of namedFile() (base/named_file.h).
+/// The path of namedFile() (base/files/named_file.h).
 std::string pictureFile(const std::string& from, const std::string& name);
 
 /// A checker of magenta and black, which stands for a missing texture.

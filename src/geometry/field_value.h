@@ -9,8 +9,8 @@
 #include "base/field_value.h"
 #include "geometry/materials.h"
 #include "geometry/shape.h"
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/heights.h"
+#include "geometry/shapes/solids/csg.h"
+#include "geometry/shapes/surfaces/heights.h"
 #include "math/vec.h"
 
 namespace trace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/listed.h"
-#include "geometry/shapes/csg.h"
+#include "geometry/shapes/solids/csg.h"
 
 namespace trace {
 

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "image/exr_file.h"
-#include "image/film.h"
+#include "image/codecs/exr_file.h"
+#include "image/film/film.h"
 
 namespace trace {
 

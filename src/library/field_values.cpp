@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/shapes/csg_tree.h"
-#include "geometry/shapes/plane.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/shapes/solids/plane.h"
 
 namespace traceray {
 namespace {

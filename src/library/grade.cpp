@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "base/budget.h"
-#include "base/file.h"
-#include "image/flip.h"
+#include "base/files/file.h"
+#include "image/comparison/flip.h"
 #include "library/guard.h"
 #include "library/scene_state.h"
 #include "library/watched_work.h"

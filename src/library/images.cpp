@@ -4,9 +4,9 @@
 
 #include "app/compare/difference.h"
 #include "base/text.h"
-#include "image/codec.h"
-#include "image/difference.h"
-#include "image/flip.h"
+#include "image/codecs/codec.h"
+#include "image/comparison/difference.h"
+#include "image/comparison/flip.h"
 #include "library/guard.h"
 
 namespace traceray {

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/lint/lint.h"
 #include "app/advice/auto_exposure.h"
+#include "app/lint/lint.h"
 #include "app/session/output.h"
 #include "app/session/render_warnings.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
 #include "library/guard.h"
 #include "library/part_state.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "app/session/session.h"
-#include "base/read_scope.h"
+#include "base/files/read_scope.h"
 #include "formats/format.h"
 #include "formats/kind_defaults.h"
 #include "scene/scene.h"
@@ -49,7 +49,8 @@ struct SceneState {
   trace::Real time = 0;                          ///< at which it was read
   bool changesWithTime = false;
 
-  /// A program may read any file; what the text of a scene names lies below its folder (base/read_scope.h).
+  /// A program may read any file; what the text of a scene names lies below its folder
+  /// (base/files/read_scope.h).
   trace::ReadScope readScope() const {
     return trace::ReadScope(isBuilt ? std::vector<std::string>{"/"} : std::vector<std::string>{});
   }

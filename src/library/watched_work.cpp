@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "base/read_scope.h"
+#include "base/files/read_scope.h"
 
 namespace traceray {
 

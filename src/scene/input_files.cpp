@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
+#include "base/files/named_file.h"
 #include "base/hash.h"
-#include "base/named_file.h"
 
 namespace trace {
 

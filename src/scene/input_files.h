@@ -41,8 +41,8 @@ class InputFiles {
   std::set<InputFile> known_;     // the same
 };
 
-/// The bytes of namedFile(from, name) (base/named_file.h), noted as read, or as named if it cannot be read.
-/// Throws as readBeside() of base/file.h.
+/// The bytes of namedFile(from, name) (base/files/named_file.h), noted as read, or as named if it cannot be
+/// read. Throws as readBeside() of base/files/file.h.
 std::string readBeside(const std::string& from, const std::string& name, InputFiles& inputs);
 
 }  // namespace trace

@@ -8,7 +8,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
 #include "geometry/shape.h"
 #include "scene/conventions.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/text.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 #include "scene/groups.h"
 #include "scene/integrators.h"
 #include "scene/picture_size.h"

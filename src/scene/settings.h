@@ -8,9 +8,9 @@
 #include <string>
 
 #include "base/enum_set.h"
-#include "image/development.h"
-#include "image/pixel_filter.h"
-#include "image/tone.h"
+#include "image/development/development.h"
+#include "image/development/tone.h"
+#include "image/film/pixel_filter.h"
 #include "shading/cameras/camera.h"
 #include "shading/environment_map.h"
 #include "shading/rules.h"

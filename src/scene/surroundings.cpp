@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "base/budget.h"
-#include "base/file.h"
-#include "base/read_scope.h"
-#include "image/codec.h"
-#include "image/picture_name.h"
+#include "base/files/file.h"
+#include "base/files/read_scope.h"
+#include "image/codecs/codec.h"
+#include "image/codecs/picture_name.h"
 #include "scene/scene.h"
 
 namespace trace {

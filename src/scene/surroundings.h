@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "scene/input_files.h"
 #include "scene/settings.h"
 #include "shading/cameras/aperture.h"

@@ -27,7 +27,7 @@ struct Background {
   std::vector<Real> limits;
   std::vector<Color> gradient{};   ///< all around, from straight down to straight up; none: no gradient
   std::vector<Real> elevations{};  ///< degrees above the horizon, ascending; none: evenly spaced
-  Real turbidity = 0;              ///< turbidity of a daylight sky (shading/daylight.h); 0: none
+  Real turbidity = 0;              ///< turbidity of a daylight sky (shading/optics/daylight.h); 0: none
   Vec3 sun{1, 1, 1};               ///< the direction to it
   Real skyBrightness = 0.05;       ///< a colour of 1 for each 1 / skyBrightness kcd/m^2
   Color ground{0.2, 0.2, 0.2};     ///< below the horizon of a daylight sky

@@ -3,7 +3,7 @@
 
 #include "base/field.h"
 #include "math/color.h"
-#include "shading/dispersion.h"
+#include "shading/optics/dispersion.h"
 
 namespace trace {
 

@@ -13,7 +13,7 @@
 #include "shading/materials/principled.h"
 #include "shading/materials/subsurface.h"
 #include "shading/materials/velvet.h"
-#include "shading/substances.h"
+#include "shading/optics/substances.h"
 #include "shading/textures/brick.h"
 #include "shading/textures/clouds.h"
 #include "shading/textures/granite.h"

@@ -1,5 +1,5 @@
 // THE library: materials that scenes may take by their names. Those that light passes are the substances of
-// shading/substances.h; here are metals, stones, woods, plastics and cloth.
+// shading/optics/substances.h; here are metals, stones, woods, plastics and cloth.
 #pragma once
 
 #include <optional>

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "image/mipmap.h"
+#include "image/maps/mipmap.h"
 
 namespace trace {
 

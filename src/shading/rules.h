@@ -18,7 +18,8 @@ struct Rules {
   MirrorDefault mirrorDefault = MirrorDefault::specular;
   DiffuseSides diffuseSides = DiffuseSides::front;
   bool limitAttenuation = true;  ///< with distance a light never becomes brighter than it is
-  /// Clear layers mirror by Fresnel's formula in place of Schlick's approximation (shading/layer_fresnel.h).
+  /// Clear layers mirror by Fresnel's formula in place of Schlick's approximation
+  /// (shading/optics/layer_fresnel.h).
   bool exactFresnel = false;
 };
 

@@ -136,7 +136,8 @@ Vec2 mapped(Mapping mapping, const Vec3& p) {
 Texel ImageMap::texelAt(const TexturePlace& place) const {
   if (!file.map) return {};
   const auto& m = transform;
-  const Vec2 at = mapping == Mapping::uv ? secondUv ? place.secondUv : place.uv : mapped(mapping, place.point);
+  const Vec2 at =
+      mapping == Mapping::uv ? secondUv ? place.secondUv : place.uv : mapped(mapping, place.point);
   const Vec2 uv{m[0] * at.x + m[1] * at.y + m[2], m[3] * at.x + m[4] * at.y + m[5]};
   if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) return {};
   const auto step = [&](const Vec2& d) { return Vec2{m[0] * d.x + m[1] * d.y, m[3] * d.x + m[4] * d.y}; };

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "studio/dialogs.h"
-#include "studio/landmarks.h"
 #include "studio/panels.h"
-#include "studio/selection.h"
+#include "studio/scene/selection.h"
 #include "studio/stage.h"
+#include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "app/session/version.h"
 #include "studio/actions.h"
-#include "studio/landmarks.h"
 #include "studio/panels.h"
+#include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "studio/actions.h"
 #include "studio/dialogs.h"
-#include "studio/landmarks.h"
-#include "studio/number_field.h"
 #include "studio/panels.h"
 #include "studio/stage.h"
+#include "studio/widgets/landmarks.h"
+#include "studio/widgets/number_field.h"
 
 namespace trace::studio {
 namespace {

@@ -8,15 +8,15 @@
 
 #include "app/session/version.h"
 #include "base/error.h"
+#include "base/files/read_scope.h"
+#include "base/files/streams.h"
 #include "base/printable.h"
-#include "base/read_scope.h"
-#include "base/streams.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "studio/actions.h"
 #include "studio/arguments.h"
-#include "studio/landmarks.h"
 #include "studio/script.h"
 #include "studio/studio.h"
+#include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
 namespace {

@@ -11,15 +11,15 @@
 #include <filesystem>
 #include <sstream>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "scene/picture_size.h"
 #include "studio/actions.h"
-#include "studio/landmarks.h"
 #include "studio/panels.h"
+#include "studio/scene/selection.h"
 #include "studio/script_state.h"
-#include "studio/selection.h"
+#include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
 namespace {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "studio/landmarks.h"
+#include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
 

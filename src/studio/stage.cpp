@@ -6,11 +6,11 @@
 #include <cmath>
 
 #include "studio/actions.h"
-#include "studio/landmarks.h"
 #include "studio/panels.h"
-#include "studio/ray_rows.h"
-#include "studio/rays_view.h"
+#include "studio/rays/ray_rows.h"
+#include "studio/space/rays_view.h"
 #include "studio/studio.h"
+#include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
 namespace {

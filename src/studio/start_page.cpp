@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "studio/actions.h"
-#include "studio/landmarks.h"
 #include "studio/studio.h"
+#include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
 namespace {

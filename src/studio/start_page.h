@@ -9,7 +9,7 @@
 
 #include "app/session/background_task.h"
 #include "app/view/examples.h"
-#include "studio/texture.h"
+#include "studio/widgets/texture.h"
 
 namespace trace::studio {
 

@@ -4,7 +4,7 @@
 // For the place of the keyboard.
 #include <imgui_internal.h>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "studio/panels.h"
 
 namespace trace::studio {

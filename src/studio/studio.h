@@ -10,11 +10,11 @@
 
 #include "app/editing/preferences.h"
 #include "app/editing/workspace.h"
-#include "studio/file_dialog.h"
-#include "studio/picture_view.h"
-#include "studio/rays_view.h"
+#include "studio/picture/picture_view.h"
+#include "studio/space/rays_view.h"
 #include "studio/start_page.h"
-#include "studio/theme.h"
+#include "studio/widgets/file_dialog.h"
+#include "studio/widgets/theme.h"
 #include "studio/window.h"
 
 namespace trace::studio {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/editing/input_queue.h"
-#include "image/tone.h"
+#include "image/development/tone.h"
 
 namespace trace::studio {
 

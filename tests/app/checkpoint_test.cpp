@@ -8,7 +8,7 @@
 
 #include "app/session/output.h"
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/hash.h"
 #include "support/films.h"
 #include "support/folder.h"

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <functional>
 
-#include "base/file.h"
-#include "image/codec.h"
-#include "image/flip.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
+#include "image/comparison/flip.h"
 #include "support/folder.h"
 
 namespace trace::test {

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "base/error.h"
-#include "image/codec.h"
-#include "image/flip.h"
+#include "image/codecs/codec.h"
+#include "image/comparison/flip.h"
 
 namespace trace::test {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "app/session/session.h"
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "scene/scene_features.h"
 #include "shading/material.h"
 #include "support/paths.h"

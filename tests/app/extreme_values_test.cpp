@@ -11,7 +11,7 @@
 #include "app/session/session.h"
 #include "app/view/scene_model.h"
 #include "base/budget.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/looks.h"
 #include "formats/format.h"
 #include "geometry/field_value.h"

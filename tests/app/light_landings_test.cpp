@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "support/scenes.h"
 
 namespace trace::test {

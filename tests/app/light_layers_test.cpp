@@ -6,9 +6,9 @@
 #include <map>
 
 #include "app/session/session.h"
-#include "base/file.h"
-#include "image/codec.h"
-#include "image/exr_layers.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
+#include "image/codecs/exr_layers.h"
 #include "render/picture/passes.h"
 #include "support/folder.h"
 #include "support/paths.h"

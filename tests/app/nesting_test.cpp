@@ -11,7 +11,7 @@
 #include "app/lint/lint.h"
 #include "app/session/session.h"
 #include "app/view/ray_drawing.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/sanitized.h"
 #include "support/folder.h"
 

@@ -6,8 +6,8 @@
 #include <array>
 
 #include "app/session/session.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "support/scenes.h"
 
 namespace trace::test {

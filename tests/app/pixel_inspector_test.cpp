@@ -6,7 +6,7 @@
 #include <chrono>
 #include <cstring>
 
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "shading/lights/directional_light.h"
 #include "support/scenes.h"
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "app/session/session.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "shading/lights/ambient_light.h"
 #include "support/scenes.h"
 

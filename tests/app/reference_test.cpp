@@ -7,9 +7,9 @@
 #include <map>
 
 #include "app/session/session.h"
-#include "base/read_scope.h"
-#include "image/codec.h"
-#include "image/compare.h"
+#include "base/files/read_scope.h"
+#include "image/codecs/codec.h"
+#include "image/comparison/compare.h"
 #include "support/paths.h"
 #include "support/shared.h"
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/session/session.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "support/scene_files.h"
 
 namespace trace::test {

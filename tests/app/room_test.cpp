@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "app/view/scene_model.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/plane.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/plane.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "support/scenes.h"
 
 namespace trace::test {

@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "base/file.h"
-#include "base/read_scope.h"
+#include "base/files/file.h"
+#include "base/files/read_scope.h"
 #include "formats/format.h"
 #include "support/folder.h"
 #include "support/gltf.h"

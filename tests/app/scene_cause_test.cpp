@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "app/session/session.h"
-#include "base/file.h"
-#include "image/codec.h"
-#include "image/development.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
+#include "image/development/development.h"
 #include "support/folder.h"
 #include "support/paths.h"
 

@@ -5,10 +5,10 @@
 
 #include <functional>
 
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/csg_tree.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/csg.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
 
 namespace trace::test {
 namespace {

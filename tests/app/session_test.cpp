@@ -8,8 +8,8 @@
 #include <map>
 
 #include "base/budget.h"
-#include "base/file.h"
-#include "image/codec.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
 #include "support/folder.h"
 #include "support/paths.h"
 #include "support/random.h"

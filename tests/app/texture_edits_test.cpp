@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/editing/edits.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "shading/lights/projector_light.h"
 #include "shading/texture_flaws.h"
 #include "shading/textures/brick.h"

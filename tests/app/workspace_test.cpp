@@ -15,10 +15,10 @@
 #include <utility>
 
 #include "app/editing/texture_edits.h"
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/csg_tree.h"
-#include "geometry/shapes/sphere.h"
-#include "image/codec.h"
+#include "geometry/shapes/solids/csg.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "image/codecs/codec.h"
 #include "support/panes.h"
 #include "support/scene_files.h"
 

@@ -9,9 +9,9 @@
 
 #include "app/grading/class_grade.h"
 #include "app/session/session.h"
-#include "base/file.h"
-#include "image/codec.h"
-#include "image/flip.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
+#include "image/comparison/flip.h"
 #include "support/folder.h"
 
 namespace trace::test {

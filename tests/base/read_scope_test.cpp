@@ -1,12 +1,12 @@
-#include "base/read_scope.h"
+#include "base/files/read_scope.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "base/named_file.h"
+#include "base/files/file.h"
+#include "base/files/named_file.h"
 #include "base/parallel.h"
 #include "support/folder.h"
 

@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "support/folder.h"
 
 namespace trace::test {

@@ -6,10 +6,10 @@
 #include <set>
 #include <sstream>
 
-#include "cli/commands.h"
+#include "cli/commands/commands.h"
 #include "cli/flags.h"
-#include "cli/statistics_text.h"
-#include "image/codec.h"
+#include "cli/text/statistics_text.h"
+#include "image/codecs/codec.h"
 #include "program.h"
 #include "scene/options.h"
 #include "support/paths.h"

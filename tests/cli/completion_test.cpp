@@ -1,6 +1,6 @@
 // Completions and manual pages: they know every flag of the tables, and the shells themselves understand
 // them.
-#include "cli/completion.h"
+#include "cli/text/completion.h"
 
 #include <gtest/gtest.h>
 
@@ -12,8 +12,8 @@
 #include <sstream>
 
 #include "app/editing/studio_flags.h"
-#include "cli/help_parts.h"
-#include "cli/manual.h"
+#include "cli/text/help_parts.h"
+#include "cli/text/manual.h"
 #include "program.h"
 
 namespace trace::test {

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "app/compare/difference.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "program.h"
 #include "support/exr.h"
 

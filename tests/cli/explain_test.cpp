@@ -14,7 +14,7 @@
 #include "app/view/ray_drawing.h"
 #include "base/sanitized.h"
 #include "cli/program.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "support/folder.h"
 #include "support/paths.h"
 #include "support/shared.h"

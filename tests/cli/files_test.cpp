@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "program.h"
 
 namespace trace::test {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "program.h"
 
 namespace trace::test {

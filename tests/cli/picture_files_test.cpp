@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <string>
 
-#include "base/file.h"
-#include "image/codec.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
 #include "support/folder.h"
 #include "support/paths.h"
 

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "support/folder.h"
 #include "support/paths.h"
 

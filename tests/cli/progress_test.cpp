@@ -1,9 +1,9 @@
-#include "cli/progress.h"
+#include "cli/terminal/progress.h"
 
 #include <gtest/gtest.h>
 
-#include "cli/console.h"
 #include "cli/flags.h"
+#include "cli/terminal/console.h"
 #include "scene/options.h"
 
 namespace trace::cli {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "program.h"
 
 namespace trace::reading_test {

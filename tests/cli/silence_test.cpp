@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <regex>
 
-#include "image/codec.h"
-#include "image/tone.h"
+#include "image/codecs/codec.h"
+#include "image/development/tone.h"
 #include "program.h"
 
 namespace trace::test {

@@ -1,7 +1,7 @@
 // ray stereogram.
 #include <gtest/gtest.h>
 
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "program.h"
 
 namespace trace::test {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "base/sanitized.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "program.h"
 #include "support/panes.h"
 

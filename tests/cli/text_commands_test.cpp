@@ -10,7 +10,7 @@
 #include "formats/ray/file/format.h"
 #include "formats/ray/language/expansion.h"
 #include "formats/ray/syntax/layout.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "program.h"
 #include "support/paths.h"
 

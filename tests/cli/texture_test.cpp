@@ -1,7 +1,7 @@
 // ray texture.
 #include <gtest/gtest.h>
 
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "program.h"
 #include "support/paths.h"
 

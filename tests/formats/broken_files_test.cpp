@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/sanitized.h"
 #include "formats/format.h"
 #include "shading/textures/image_map.h"

@@ -1,11 +1,11 @@
 // Files of the composer: text and binary, and what they mean.
 #include "formats/composer/composer_format.h"
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/composer/composer_file.h"
 #include "formats/textures.h"
 #include "geometry/mesh/mesh.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "mesh_helpers.h"
 #include "shading/lights/ambient_light.h"
 #include "shading/lights/directional_light.h"

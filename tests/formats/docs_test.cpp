@@ -2,7 +2,7 @@
 // program say.
 #include <gtest/gtest.h>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/match.h"
 #include "formats/format.h"
 #include "formats/known_fields.h"

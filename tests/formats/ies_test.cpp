@@ -7,7 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/format.h"
 #include "shading/lights/goniometric_light.h"
 #include "support/paths.h"

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/format.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "shading/textures/image_map.h"
 #include "support/exr.h"
 #include "support/folder.h"

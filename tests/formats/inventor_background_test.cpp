@@ -7,8 +7,8 @@
 #include <functional>
 #include <string>
 
-#include "base/file.h"
-#include "base/read_scope.h"
+#include "base/files/file.h"
+#include "base/files/read_scope.h"
 #include "formats/format.h"
 #include "formats/inventor/inventor_sky.h"
 #include "support/folder.h"

@@ -1,5 +1,5 @@
 // Binary Inventor files are the scenes of the text that they stand for, and damaged ones cost nothing else.
-#include "formats/inventor/inventor_binary.h"
+#include "formats/inventor/syntax/inventor_binary.h"
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "base/read_scope.h"
+#include "base/files/read_scope.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/cone.h"
+#include "geometry/shapes/solids/cone.h"
 #include "mesh_helpers.h"
 #include "shading/lights/ambient_light.h"
 #include "shading/lights/directional_light.h"

@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/inventor/inventor_format.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
-#include "image/codec.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "image/codecs/codec.h"
 #include "mesh_helpers.h"
 #include "ray_helpers.h"
 #include "shading/lights/ambient_light.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/model_textures.h"
 #include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"

@@ -9,13 +9,13 @@
 #include <string_view>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/format.h"
 #include "geometry/mesh/mesh.h"
-#include "image/mipmap.h"
+#include "image/maps/mipmap.h"
 #include "image/srgb.h"
 #include "shading/materials/principled.h"
-#include "shading/microfacet.h"
+#include "shading/optics/microfacet.h"
 #include "support/folder.h"
 
 namespace trace::test {

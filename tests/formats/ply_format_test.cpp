@@ -7,7 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "geometry/mesh/mesh.h"
 #include "mesh_helpers.h"
 #include "support/paths.h"

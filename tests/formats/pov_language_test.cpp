@@ -6,7 +6,7 @@
 #include <string>
 
 #include "base/budget.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/format.h"
 #include "formats/pov/pov_format.h"
 #include "support/folder.h"

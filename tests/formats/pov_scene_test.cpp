@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <string>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/format.h"
-#include "geometry/shapes/cone.h"
-#include "geometry/shapes/csg_tree.h"
-#include "geometry/shapes/isosurface.h"
-#include "geometry/shapes/prism.h"
-#include "geometry/shapes/torus.h"
+#include "geometry/shapes/solids/cone.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/shapes/solids/torus.h"
+#include "geometry/shapes/surfaces/isosurface.h"
+#include "geometry/shapes/surfaces/prism.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"
 #include "shading/lights/spot_light.h"

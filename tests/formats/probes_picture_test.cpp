@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "image/codec.h"
-#include "image/codec_parts.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
+#include "image/codecs/codec_parts.h"
 #include "probes.h"
 #include "support/paths.h"
 #include "support/webp.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/read_scope.h"
+#include "base/files/read_scope.h"
 #include "ray_helpers.h"
 #include "support/paths.h"
 

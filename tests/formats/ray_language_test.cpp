@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "base/budget.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/ray/file/format.h"
 #include "formats/ray/language/language.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 #include "ray_helpers.h"
 #include "scene/groups.h"
 #include "support/paths.h"

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/sanitized.h"
 #include "formats/ray/file/format.h"
 #include "formats/ray/write/patch.h"

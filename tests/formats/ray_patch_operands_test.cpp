@@ -7,10 +7,10 @@
 
 #include "formats/ray/syntax/syntax.h"
 #include "formats/ray_patch_helpers.h"
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/csg_tree.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/torus.h"
+#include "geometry/shapes/solids/csg.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/torus.h"
 
 namespace trace::ray_patch_operands_test {
 namespace {

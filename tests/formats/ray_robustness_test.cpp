@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/nesting.h"
 #include "geometry/mesh/mesh.h"
 #include "ray_helpers.h"

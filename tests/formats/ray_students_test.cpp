@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "formats/ray/file/format.h"
 #include "formats/ray/file/students.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 #include "geometry/traced.h"
 #include "ray_helpers.h"
 

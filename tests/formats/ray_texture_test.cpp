@@ -4,7 +4,7 @@
 #include "formats/ray/read/texture.h"
 #include "formats/ray/write/writer.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/torus.h"
+#include "geometry/shapes/solids/torus.h"
 #include "ray_helpers.h"
 #include "shading/texture_list.h"
 

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <string>
 
-#include "base/read_scope.h"
+#include "base/files/read_scope.h"
 #include "formats/ray/write/writer.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/height_field.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/surfaces/height_field.h"
 #include "mesh_helpers.h"
 #include "shading/textures/image_map.h"
 #include "support/materials.h"

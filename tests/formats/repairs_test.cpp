@@ -4,8 +4,8 @@
 
 #include <filesystem>
 
-#include "base/file.h"
-#include "base/read_scope.h"
+#include "base/files/file.h"
+#include "base/files/read_scope.h"
 #include "formats/format.h"
 #include "geometry/mesh/mesh.h"
 #include "support/folder.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "base/file.h"
-#include "base/read_scope.h"
+#include "base/files/file.h"
+#include "base/files/read_scope.h"
 #include "base/sanitized.h"
 #include "formats/format.h"
 #include "formats/ray/write/writer.h"

@@ -4,7 +4,7 @@
 #include <map>
 #include <string>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/format.h"
 #include "formats/ray/write/writer.h"
 #include "formats/textures.h"

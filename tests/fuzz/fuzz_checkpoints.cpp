@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "app/session/checkpoint.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/hash.h"
 #include "support/films.h"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);

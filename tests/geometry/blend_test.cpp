@@ -1,5 +1,5 @@
 // Solids joined by fillets.
-#include "geometry/shapes/blend.h"
+#include "geometry/shapes/solids/blend.h"
 
 #include <gtest/gtest.h>
 
@@ -7,18 +7,18 @@
 
 #include "base/error.h"
 #include "geometry/materials.h"
-#include "geometry/shapes/cone.h"
-#include "geometry/shapes/conic.h"
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/csg_tree.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/menger.h"
-#include "geometry/shapes/plane.h"
-#include "geometry/shapes/quadric.h"
-#include "geometry/shapes/rounded_box.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/sphere_sweep.h"
-#include "geometry/shapes/torus.h"
+#include "geometry/shapes/fractals/menger.h"
+#include "geometry/shapes/solids/cone.h"
+#include "geometry/shapes/solids/conic.h"
+#include "geometry/shapes/solids/csg.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/plane.h"
+#include "geometry/shapes/solids/quadric.h"
+#include "geometry/shapes/solids/rounded_box.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/torus.h"
+#include "geometry/shapes/surfaces/sphere_sweep.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
 

@@ -1,16 +1,16 @@
 // Union, intersection, difference and clip.
-#include "geometry/shapes/csg.h"
+#include "geometry/shapes/solids/csg.h"
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/cone.h"
-#include "geometry/shapes/csg_tree.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/plane.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cone.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/plane.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
 

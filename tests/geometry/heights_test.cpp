@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "geometry/shapes/bezier_patches.h"
-#include "geometry/shapes/height_field.h"
-#include "geometry/shapes/terrain.h"
+#include "geometry/shapes/surfaces/bezier_patches.h"
+#include "geometry/shapes/surfaces/height_field.h"
+#include "geometry/shapes/surfaces/terrain.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "support/shapes.h"
 
 namespace trace {

@@ -1,5 +1,5 @@
 // Balls of haze: what a ray passes through, against the integral of the density.
-#include "geometry/shapes/puff.h"
+#include "geometry/shapes/surfaces/puff.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Profiles carried along paths, against what is known of them.
-#include "geometry/shapes/sweep.h"
+#include "geometry/shapes/surfaces/sweep.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "base/error.h"
-#include "geometry/shapes/prism.h"
+#include "geometry/shapes/surfaces/prism.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
 

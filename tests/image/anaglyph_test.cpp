@@ -1,4 +1,4 @@
-#include "image/anaglyph.h"
+#include "image/development/anaglyph.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Bloom, and the steps between the film and the file, which hear on pictures of any size that the time is
 // over.
-#include "image/bloom.h"
+#include "image/development/bloom.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 #include <functional>
 
 #include "base/budget.h"
-#include "image/anaglyph.h"
-#include "image/codec.h"
-#include "image/denoise.h"
-#include "image/development.h"
+#include "image/codecs/codec.h"
+#include "image/development/anaglyph.h"
+#include "image/development/denoise.h"
+#include "image/development/development.h"
 #include "math/noise.h"
 
 namespace trace::test {

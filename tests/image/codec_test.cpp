@@ -1,6 +1,6 @@
 // Picture files. Most tests are loops over the table of formats; the known answers were written out by hand
 // from the specifications of BMP, TGA, PPM and PNG.
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
@@ -15,8 +15,8 @@
 #include <stdexcept>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "image/compare.h"
+#include "base/files/file.h"
+#include "image/comparison/compare.h"
 #include "support/folder.h"
 #include "support/paths.h"
 #include "support/webp.h"

@@ -1,5 +1,5 @@
 // Statistics of differences worked out by hand, and the cases without a number.
-#include "image/compare.h"
+#include "image/comparison/compare.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include <bit>
 
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 
 namespace trace {
 namespace {

@@ -1,5 +1,5 @@
 // Noise taken out of pictures that are made here, so that the truth is known.
-#include "image/denoise.h"
+#include "image/development/denoise.h"
 
 #include <gtest/gtest.h>
 

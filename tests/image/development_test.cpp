@@ -1,5 +1,5 @@
 // What is done between the light gathered and the values shown.
-#include "image/development.h"
+#include "image/development/development.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Pictures of differences, pixel by pixel.
-#include "image/difference.h"
+#include "image/comparison/difference.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "base/error.h"
-#include "image/false_color.h"
+#include "image/comparison/false_color.h"
 
 namespace trace {
 namespace {

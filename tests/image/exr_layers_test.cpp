@@ -1,5 +1,5 @@
 // Layers and parts of EXR files: which is shown, which a name chooses, and where its pixels lie.
-#include "image/exr_layers.h"
+#include "image/codecs/exr_layers.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "image/codec.h"
-#include "image/picture_name.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
+#include "image/codecs/picture_name.h"
 #include "support/exr.h"
 #include "support/folder.h"
 

@@ -1,5 +1,5 @@
 // Colours that stand for numbers can be told apart.
-#include "image/false_color.h"
+#include "image/comparison/false_color.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "image/film.h"
+#include "image/film/film.h"
 #include "support/films.h"
 
 namespace trace::test {

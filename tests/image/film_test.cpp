@@ -1,5 +1,5 @@
 // What can be seen of a film while it is being made.
-#include "image/film.h"
+#include "image/film/film.h"
 
 #include <gtest/gtest.h>
 

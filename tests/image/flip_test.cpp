@@ -1,6 +1,6 @@
 // FLIP against values worked out by another road: for pictures of one colour the formula by hand (filters do
 // nothing to them), for others the filters as two-dimensional sums, in a program of its own.
-#include "image/flip.h"
+#include "image/comparison/flip.h"
 
 #include <gtest/gtest.h>
 

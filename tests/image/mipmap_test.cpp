@@ -1,6 +1,6 @@
 // Lookups in pictures. Filters are held against what they must give whatever they do inside: a constant stays
 // itself, a straight ramp too, and all of the picture at once is its mean.
-#include "image/mipmap.h"
+#include "image/maps/mipmap.h"
 
 #include <gtest/gtest.h>
 #include <zlib.h>

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/file.h"
-#include "image/codec.h"
-#include "image/orientation.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
+#include "image/codecs/orientation.h"
 #include "support/paths.h"
 
 namespace trace::picture_kinds_test {

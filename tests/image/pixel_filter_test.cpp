@@ -1,5 +1,5 @@
 // Filters of reconstruction: samples lie where they count, and count one in the mean.
-#include "image/pixel_filter.h"
+#include "image/film/pixel_filter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "image/stereogram.h"
+#include "image/development/stereogram.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Levels from colours: the two roundings to the last value, and numbers that are none.
-#include "image/tone.h"
+#include "image/development/tone.h"
 
 #include <gtest/gtest.h>
 

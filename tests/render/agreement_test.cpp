@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "support/rooms.h"
 
 namespace trace::test::agreement_test {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/mandelbulb.h"
-#include "geometry/shapes/plane.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/fractals/mandelbulb.h"
+#include "geometry/shapes/solids/plane.h"
+#include "geometry/shapes/solids/square.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
 #include "render/lights/lamps.h"

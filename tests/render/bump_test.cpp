@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "geometry/shapes/plane.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/plane.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "render/rays/tracer.h"
 #include "render/world/world.h"
 #include "shading/materials/principled.h"

@@ -1,8 +1,8 @@
 // Photons of caustics against what mirrors, panes and lenses do with light.
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/photons/photons.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "shading/lights/point_light.h"
 #include "shading/textures/formula.h"
 #include "shading/textures/noise.h"

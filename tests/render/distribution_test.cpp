@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "shading/lights/rectangle_light.h"
 #include "shading/materials/conductor.h"
 #include "support/scenes.h"

@@ -9,8 +9,8 @@
 #include "base/match.h"
 #include "geometry/field_value.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/cube.h"
+#include "geometry/shapes/solids/csg.h"
+#include "geometry/shapes/solids/cube.h"
 #include "geometry/traced.h"
 #include "support/scenes.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/square.h"
 #include "shading/lights/ambient_light.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"

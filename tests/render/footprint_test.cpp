@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "geometry/mesh/mesh_uv.h"
-#include "geometry/shapes/plane.h"
+#include "geometry/shapes/solids/plane.h"
 #include "render/integrators/make_integrator.h"
 #include "render/picture/explain.h"
 #include "render/samples/pixel.h"
 #include "render/world/world.h"
-#include "shading/optics.h"
+#include "shading/optics/optics.h"
 #include "shading/textures/checker.h"
 #include "shading/textures/image_map.h"
 #include "support/random.h"

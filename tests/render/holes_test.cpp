@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/picture/explain.h"
 #include "shading/lights/ambient_light.h"
 #include "shading/lights/directional_light.h"

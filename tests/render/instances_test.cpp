@@ -3,12 +3,12 @@
 
 #include <set>
 
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/csg_tree.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/plane.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/csg.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/plane.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "scene/groups.h"
 #include "scene/integrators.h"
 #include "support/scenes.h"

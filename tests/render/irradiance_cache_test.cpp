@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/picture/explain.h"
 #include "support/quarters.h"
 #include "support/random.h"

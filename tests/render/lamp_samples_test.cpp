@@ -1,7 +1,7 @@
 // Whitted's tracer asks objects that shine for their light: the same light as closed forms and `direct` give.
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/picture/explain.h"
 #include "shading/materials/conductor.h"
 #include "support/random.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "image/srgb.h"
 #include "shading/lights/point_light.h"
 #include "support/rooms.h"

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/lights/lamps.h"
 #include "render/picture/explain.h"
 #include "shading/lights/directional_light.h"

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/plane.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/plane.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/media/media.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/square.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
 #include "render/lights/lamps.h"

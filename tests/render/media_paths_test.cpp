@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "math/warp.h"
 #include "render/photons/photons.h"
 #include "render/picture/agreement.h"

@@ -5,9 +5,9 @@
 
 #include <set>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/picture/explain.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"

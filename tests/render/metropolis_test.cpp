@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/square.h"
 #include "image/srgb.h"
 #include "support/quarters.h"
 #include "support/rooms.h"

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "geometry/shapes/conic.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/conic.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/integrators/whitted.h"
 #include "render/picture/explain.h"
 #include "shading/lights/directional_light.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/plane.h"
+#include "geometry/shapes/solids/plane.h"
 #include "shading/light_list.h"
 #include "support/lights.h"
 #include "support/rooms.h"

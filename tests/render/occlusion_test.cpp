@@ -1,7 +1,7 @@
 // Ambient occlusion against closed forms (the share of a half space that is open, by the cosine).
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/square.h"
 #include "shading/lights/ambient_light.h"
 #include "support/scenes.h"
 

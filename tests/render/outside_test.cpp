@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "render/picture/explain.h"
 #include "support/scenes.h"
 

@@ -5,8 +5,8 @@
 
 #include <cstring>
 
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "scene/options.h"
 #include "support/scenes.h"
 

@@ -1,7 +1,7 @@
 // Path tracing against closed forms of radiance.
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/picture/explain.h"
 #include "shading/lights/point_light.h"
 #include "support/random.h"

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "render/picture/agreement.h"
 #include "support/rooms.h"
 

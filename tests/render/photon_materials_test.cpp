@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "geometry/shapes/cube.h"
+#include "geometry/shapes/solids/cube.h"
 #include "render/picture/agreement.h"
 #include "shading/lights/point_light.h"
 #include "shading/material_list.h"

@@ -1,8 +1,8 @@
 // Photons of all light, and the integrator that gathers by them, against path tracing and closed forms.
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/photons/photons.h"
 #include "render/picture/explain.h"
 #include "shading/lights/directional_light.h"

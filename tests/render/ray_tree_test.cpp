@@ -6,10 +6,10 @@
 #include <cstring>
 
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/cone.h"
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cone.h"
+#include "geometry/shapes/solids/csg.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/picture/explain.h"
 #include "render/rays/visited_boxes.h"
 #include "shading/lights/directional_light.h"

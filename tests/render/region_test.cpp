@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "render/picture/light_image.h"
 #include "support/rooms.h"
 

@@ -3,9 +3,9 @@
 
 #include <cstring>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/picture/passes.h"
 #include "render/samples/integrator.h"
 #include "support/scenes.h"

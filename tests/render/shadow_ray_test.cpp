@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/rays/tracer.h"
 #include "support/scenes.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/square.h"
 #include "support/scenes.h"
 
 namespace trace::test::sky_table_test {

@@ -3,8 +3,8 @@
 
 #include <thread>
 
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/picture/explain.h"
 #include "render/picture/passes.h"
 #include "render/samples/pixel.h"

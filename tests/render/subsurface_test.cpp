@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "render/photons/photons.h"
 #include "render/picture/explain.h"
 #include "shading/lights/directional_light.h"

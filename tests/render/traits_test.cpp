@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "scene/options.h"
 #include "shading/lights/ambient_light.h"
 #include "shading/lights/point_light.h"

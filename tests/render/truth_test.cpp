@@ -2,9 +2,9 @@
 // and conventions, which are rules of Whitted's tracer and of pictures, not of light.
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "render/picture/agreement.h"
 #include "scene/conventions.h"
 #include "shading/lights/point_light.h"

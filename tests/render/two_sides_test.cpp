@@ -3,9 +3,9 @@
 
 #include <utility>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"
 #include "support/ball.h"

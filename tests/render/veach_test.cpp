@@ -7,9 +7,9 @@
 #include <deque>
 #include <functional>
 
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "image/srgb.h"
 #include "render/chains/metropolis.h"
 #include "render/picture/agreement.h"

@@ -4,13 +4,13 @@
 #include <gtest/gtest.h>
 
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "shading/lights/ambient_light.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"
-#include "shading/optics.h"
+#include "shading/optics/optics.h"
 #include "support/scenes.h"
 
 namespace trace::test::whitted_test {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "scene/scene.h"
 #include "support/exr.h"
 #include "support/folder.h"

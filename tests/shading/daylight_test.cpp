@@ -1,5 +1,5 @@
 // The sky by day against the formulas of the paper, worked out apart.
-#include "shading/daylight.h"
+#include "shading/optics/daylight.h"
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,15 @@
 // Profiles of light that spreads in a body, and the colours of what glows, against quadrature and known
 // values.
-#include "shading/diffusion.h"
+#include "shading/optics/diffusion.h"
 
 #include <gtest/gtest.h>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
-#include "shading/blackbody.h"
 #include "shading/library.h"
 #include "shading/materials/subsurface.h"
-#include "shading/substances.h"
+#include "shading/optics/blackbody.h"
+#include "shading/optics/substances.h"
 #include "shading/textures/blackbody.h"
 #include "support/paths.h"
 

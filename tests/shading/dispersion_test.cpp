@@ -1,4 +1,4 @@
-#include "shading/dispersion.h"
+#include "shading/optics/dispersion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
-#include "shading/fresnel.h"
+#include "shading/optics/fresnel.h"
 
 #include <gtest/gtest.h>
 
-#include "shading/optics.h"
+#include "shading/optics/optics.h"
 
 namespace trace::test {
 namespace {

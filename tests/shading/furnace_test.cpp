@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "shading/bsdf.h"
-#include "shading/fresnel.h"
 #include "shading/material_list.h"
+#include "shading/optics/fresnel.h"
 
 namespace trace {
 namespace {

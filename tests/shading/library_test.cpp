@@ -7,7 +7,7 @@
 #include <string>
 
 #include "shading/materials/conductor.h"
-#include "shading/substances.h"
+#include "shading/optics/substances.h"
 #include "support/paths.h"
 
 namespace trace::test {

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "shading/bsdf.h"
-#include "shading/dispersion.h"
-#include "shading/fresnel.h"
-#include "shading/thin_film.h"
+#include "shading/optics/dispersion.h"
+#include "shading/optics/fresnel.h"
+#include "shading/optics/thin_film.h"
 #include "support/random.h"
 
 namespace trace {

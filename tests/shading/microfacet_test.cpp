@@ -1,5 +1,5 @@
 // What microfacets give back of the light that falls on them.
-#include "shading/microfacet.h"
+#include "shading/optics/microfacet.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "shading/substances.h"
+#include "shading/optics/substances.h"
 
 #include <gtest/gtest.h>
 

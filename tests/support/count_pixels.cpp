@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "math/expression.h"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "image/film.h"
+#include "image/film/film.h"
 
 namespace trace::test {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/base64.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "shading/textures/image_map.h"
 
 namespace trace::test {

@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/square.h"
 #include "support/scenes.h"
 
 namespace trace::test {

@@ -1,7 +1,7 @@
 // Small scenes, made in code.
 #pragma once
 
-#include "image/tone.h"
+#include "image/development/tone.h"
 #include "render/integrators/make_integrator.h"
 #include "render/picture/passes.h"
 #include "render/picture/render.h"

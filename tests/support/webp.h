@@ -10,8 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "image/development/tone.h"
 #include "image/raster.h"
-#include "image/tone.h"
 
 namespace trace::test {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/advice/darkness.h"
-#include "image/development.h"
+#include "image/development/development.h"
 #include "image/srgb.h"
 #include "scene/integrators.h"
 

@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "formats/kind_defaults.h"
 #include "geometry/traced.h"
-#include "image/development.h"
+#include "image/development/development.h"
 #include "image/srgb.h"
 #include "render/lights/lamps.h"
 #include "render/picture/passes.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "image/film.h"
+#include "image/film/film.h"
 #include "render/world/world.h"
 #include "scene/scene.h"
 #include "scene/settings.h"

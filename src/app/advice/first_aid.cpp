@@ -7,7 +7,7 @@
 
 #include "app/advice/auto_exposure.h"
 #include "app/advice/darkness.h"
-#include "image/development.h"
+#include "image/development/development.h"
 #include "render/samples/sampler.h"
 #include "scene/integrators.h"
 

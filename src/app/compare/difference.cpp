@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "base/budget.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
-#include "image/codec.h"
-#include "image/flip.h"
-#include "image/picture_name.h"
+#include "image/codecs/codec.h"
+#include "image/codecs/picture_name.h"
+#include "image/comparison/flip.h"
 
 namespace trace {
 namespace {

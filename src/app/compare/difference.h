@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "image/compare.h"
-#include "image/difference.h"
+#include "image/comparison/compare.h"
+#include "image/comparison/difference.h"
 
 namespace trace {
 
@@ -18,7 +18,7 @@ struct LoadedPicture {
   bool levels = true;    ///< 8 bits a channel
   std::string remark{};  ///< a warning, of what is not shown; may be empty
 };
-/// `path` may choose a layer (image/picture_name.h). Throws Error(Fault::io), Error(Fault::limit).
+/// `path` may choose a layer (image/codecs/picture_name.h). Throws Error(Fault::io), Error(Fault::limit).
 LoadedPicture loadPicture(const std::string& path);
 
 /// Numbers are in levels, 0 to 255, when both pictures have 8 bits a channel, else in linear values.

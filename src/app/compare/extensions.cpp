@@ -6,10 +6,10 @@
 #include "app/compare/difference.h"
 #include "app/compare/grade_files.h"
 #include "app/session/session.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
-#include "image/codec.h"
-#include "image/flip.h"
+#include "image/codecs/codec.h"
+#include "image/comparison/flip.h"
 #include "scene/scene_features.h"
 
 namespace trace {

@@ -11,10 +11,10 @@
 #include "app/compare/scene_cause.h"
 #include "app/session/session.h"
 #include "base/budget.h"
+#include "base/files/read_scope.h"
 #include "base/parallel.h"
-#include "base/read_scope.h"
 #include "base/text.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 
 namespace trace {
 namespace {

@@ -4,10 +4,10 @@
 
 #include "base/budget.h"
 #include "base/error.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/format.h"
 #include "formats/text_front.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 
 namespace trace {
 namespace {

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "app/explain/light_shares.h"
-#include "image/development.h"
+#include "image/development/development.h"
 #include "render/picture/explain.h"
 
 namespace trace {

@@ -17,7 +17,7 @@
 #include "app/session/session.h"
 #include "base/budget.h"
 #include "base/parallel.h"
-#include "image/development.h"
+#include "image/development/development.h"
 #include "render/integrators/make_integrator.h"
 #include "render/picture/passes.h"
 #include "render/samples/pixel.h"

@@ -12,8 +12,8 @@
 #include "app/session/session.h"
 #include "image/srgb.h"
 #include "scene/picture_size.h"
-#include "shading/fresnel.h"
-#include "shading/optics.h"
+#include "shading/optics/fresnel.h"
+#include "shading/optics/optics.h"
 
 namespace trace {
 namespace {

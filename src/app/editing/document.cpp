@@ -4,8 +4,8 @@
 
 #include "app/editing/read_back.h"
 #include "app/session/output.h"
-#include "base/file.h"
-#include "base/read_scope.h"
+#include "base/files/file.h"
+#include "base/files/read_scope.h"
 #include "base/text.h"
 #include "formats/format.h"
 #include "formats/kind_defaults.h"

@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "base/read_scope.h"
+#include "base/files/read_scope.h"
 #include "formats/ray/write/same.h"
-#include "geometry/shapes/csg_tree.h"
-#include "geometry/shapes/height_field.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/shapes/surfaces/height_field.h"
 #include "shading/lights/goniometric_light.h"
 
 namespace trace {

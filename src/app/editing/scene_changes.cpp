@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "geometry/field_value.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 
 namespace trace {
 namespace {

@@ -13,7 +13,7 @@
 #include "app/session/render_warnings.h"
 #include "base/text.h"
 #include "formats/ray/syntax/names.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 #include "scene/quality.h"
 
 namespace trace {

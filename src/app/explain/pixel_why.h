@@ -34,8 +34,8 @@ struct PixelWhy {
   std::vector<WhyCure> cures;  ///< the strongest last
 };
 
-/// Explains the sample that the tree has. Black and dark are judged as the picture shows them, with this exposure
-/// in stops.
+/// Explains the sample that the tree has. Black and dark are judged as the picture shows them, with this
+/// exposure in stops.
 PixelWhy whyOf(const RayTree& tree, const Scene& scene, const Settings& settings, Real exposure);
 
 }  // namespace trace

@@ -14,12 +14,12 @@
 #include "app/session/output.h"
 #include "app/session/version.h"
 #include "base/budget.h"
-#include "base/file.h"
+#include "base/files/file.h"
+#include "base/files/read_scope.h"
 #include "base/hash.h"
 #include "base/parallel.h"
-#include "base/read_scope.h"
 #include "base/text.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 
 namespace trace {
 namespace {

@@ -196,8 +196,7 @@ std::string classCsv(const ClassGrades& grades) {
       const GradedPair& pair = student.pairs[i];
       text += "," + pointsText(student.points[i]) + "," + std::string(verdictText(pair.verdict)) + "," +
               csvField(pair.cause.empty() ? pair.problem : pair.cause);
-      for (const double seconds : {pair.cpu, pair.ourCpu})
-        text += "," + (seconds < 0 ? "" : toText(seconds));
+      for (const double seconds : {pair.cpu, pair.ourCpu}) text += "," + (seconds < 0 ? "" : toText(seconds));
     }
     text += "\r\n";
   }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/compare/grade.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
 
 namespace trace {

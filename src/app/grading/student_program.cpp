@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/printable.h"
 #include "base/text.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 
 namespace trace {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "app/lint/checks.h"
 #include "base/budget.h"
-#include "geometry/shapes/placed.h"
+#include "geometry/shapes/solids/placed.h"
 
 namespace trace::lint_checks {
 namespace {

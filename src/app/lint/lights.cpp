@@ -8,7 +8,7 @@
 #include "app/lint/checks.h"
 #include "app/session/render_warnings.h"
 #include "base/text.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 #include "geometry/traced.h"
 #include "math/box.h"
 #include "scene/integrators.h"

@@ -7,7 +7,7 @@
 #include "app/lint/checks.h"
 #include "app/session/render_warnings.h"
 #include "base/budget.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
 #include "formats/ray/read/material.h"
 #include "geometry/mesh/mesh_repair.h"

@@ -9,9 +9,9 @@
 #include "app/lint/checks.h"
 #include "base/text.h"
 #include "geometry/field_value.h"
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/csg_tree.h"
-#include "geometry/shapes/cube.h"
+#include "geometry/shapes/solids/csg.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/shapes/solids/cube.h"
 #include "shading/textures/brick.h"
 
 namespace trace::lint_checks {

@@ -6,7 +6,7 @@
 
 #include "base/budget.h"
 #include "geometry/mesh/mesh.h"
-#include "image/tone.h"
+#include "image/development/tone.h"
 #include "math/perpendicular.h"
 #include "render/samples/pixel.h"
 #include "shading/lights/spot_light.h"

@@ -6,7 +6,7 @@
 
 #include "app/lint/rays.h"
 #include "base/budget.h"
-#include "image/tone.h"
+#include "image/development/tone.h"
 #include "render/integrators/make_integrator.h"
 #include "render/samples/pixel.h"
 #include "shading/lights/spot_light.h"

@@ -4,9 +4,9 @@
 #include <set>
 #include <string>
 
-#include "app/lint/checks.h"
 #include "app/advice/darkness.h"
 #include "app/advice/missing_caustic.h"
+#include "app/lint/checks.h"
 #include "scene/integrators.h"
 #include "shading/lights/spot_light.h"
 

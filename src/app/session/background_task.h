@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-#include "base/read_scope.h"
+#include "base/files/read_scope.h"
 
 namespace trace {
 

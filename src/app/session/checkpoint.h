@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/session/version.h"
-#include "image/film.h"
-#include "image/metadata.h"
+#include "image/codecs/metadata.h"
+#include "image/film/film.h"
 #include "scene/settings.h"
 
 namespace trace {

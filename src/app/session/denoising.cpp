@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/budget.h"
-#include "image/denoise.h"
+#include "image/development/denoise.h"
 #include "render/picture/passes.h"
 
 namespace trace {

@@ -1,11 +1,11 @@
-// Settings::denoise: noise taken out of what a film holds (image/denoise.h), as a step of its own between
-// film and tone.
+// Settings::denoise: noise taken out of what a film holds (image/development/denoise.h), as a step of its own
+// between film and tone.
 #pragma once
 
 #include <optional>
 
 #include "base/parallel.h"
-#include "image/film.h"
+#include "image/film/film.h"
 #include "scene/settings.h"
 
 namespace trace {

@@ -8,8 +8,8 @@
 #include <string>
 #include <string_view>
 
-#include "image/film.h"
-#include "image/metadata.h"
+#include "image/codecs/metadata.h"
+#include "image/film/film.h"
 #include "scene/settings.h"
 
 namespace trace {

@@ -12,9 +12,9 @@
 #include "app/session/version.h"
 #include "base/budget.h"
 #include "base/error.h"
-#include "base/file.h"
-#include "image/anaglyph.h"
-#include "image/codec.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
+#include "image/development/anaglyph.h"
 #include "render/picture/passes.h"
 
 namespace trace {

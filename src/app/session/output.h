@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "image/film.h"
-#include "image/metadata.h"
+#include "image/codecs/metadata.h"
+#include "image/film/film.h"
 #include "render/picture/pass_facts.h"
 #include "render/picture/render.h"
 #include "scene/scene.h"

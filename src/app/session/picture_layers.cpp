@@ -9,9 +9,9 @@
 
 #include "base/budget.h"
 #include "base/error.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
+#include "image/codecs/exr_file.h"
 #include "image/cryptomatte.h"
-#include "image/exr_file.h"
 #include "render/picture/passes.h"
 
 namespace trace {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "app/session/output.h"
-#include "image/film.h"
-#include "image/metadata.h"
+#include "image/codecs/metadata.h"
+#include "image/film/film.h"
 #include "image/picture.h"
 #include "render/picture/pass_facts.h"
 #include "scene/settings.h"

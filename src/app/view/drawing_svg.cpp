@@ -4,7 +4,7 @@
 #include "app/view/drawing.h"
 #include "base/match.h"
 #include "base/names.h"
-#include "image/codec.h"
+#include "image/codecs/codec.h"
 
 namespace trace {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "app/session/session.h"
 #include "app/view/picture_views.h"
-#include "image/development.h"
+#include "image/development/development.h"
 #include "scene/integrators.h"
 
 namespace trace {

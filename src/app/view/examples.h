@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "image/tone.h"
+#include "image/development/tone.h"
 
 namespace trace {
 

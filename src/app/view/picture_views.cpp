@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "app/session/denoising.h"
-#include "image/false_color.h"
+#include "image/comparison/false_color.h"
 #include "math/vec.h"
 
 namespace trace {

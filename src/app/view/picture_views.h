@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "image/film.h"
+#include "image/development/tone.h"
+#include "image/film/film.h"
 #include "image/picture.h"
-#include "image/tone.h"
 
 namespace trace {
 

@@ -21,7 +21,7 @@
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "shading/lights/ambient_light.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"

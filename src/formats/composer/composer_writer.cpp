@@ -10,7 +10,7 @@
 #include "formats/mesh/world_meshes.h"
 #include "formats/picture_files.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "scene/displacement.h"
 #include "scene/options.h"
 #include "shading/lights/ambient_light.h"

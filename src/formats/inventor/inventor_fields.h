@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/inventor/inventor_syntax.h"
+#include "formats/inventor/syntax/inventor_syntax.h"
 #include "math/color.h"
 #include "math/vec.h"
 

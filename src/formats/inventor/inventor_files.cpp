@@ -1,7 +1,7 @@
 // Objects and lights that other files bring into a scene.
-#include "base/file.h"
-#include "base/named_file.h"
-#include "base/read_scope.h"
+#include "base/files/file.h"
+#include "base/files/named_file.h"
+#include "base/files/read_scope.h"
 #include "formats/format.h"
 #include "formats/inventor/inventor_reader.h"
 #include "formats/model.h"

@@ -2,9 +2,9 @@
 #include <algorithm>
 
 #include "formats/inventor/inventor_reader.h"
-#include "geometry/shapes/cone.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/cone.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
 
 namespace trace::inventor {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "base/named_file.h"
+#include "base/files/named_file.h"
 #include "formats/inventor/inventor_reader.h"
 #include "formats/inventor/inventor_transform.h"
 

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <utility>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/match.h"
 #include "base/names.h"
 #include "base/text.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/file.h"
-#include "base/named_file.h"
-#include "base/read_scope.h"
+#include "base/files/file.h"
+#include "base/files/named_file.h"
+#include "base/files/read_scope.h"
 #include "formats/mesh/mtl_lines.h"
 #include "formats/mesh/obj_material.h"
 #include "formats/mesh/obj_words.h"

@@ -8,7 +8,7 @@
 #include "formats/model_textures.h"
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
-#include "image/picture_name.h"
+#include "image/codecs/picture_name.h"
 
 namespace trace {
 namespace {

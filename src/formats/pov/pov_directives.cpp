@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "base/budget.h"
-#include "base/file.h"
-#include "base/named_file.h"
-#include "base/read_scope.h"
+#include "base/files/file.h"
+#include "base/files/named_file.h"
+#include "base/files/read_scope.h"
 #include "formats/pov/pov_reader.h"
 #include "formats/text_front.h"
 

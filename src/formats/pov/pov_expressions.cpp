@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/budget.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
 #include "formats/pov/pov_reader.h"
 

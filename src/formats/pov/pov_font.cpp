@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "formats/pov/pov_reader.h"
-#include "geometry/shapes/prism.h"
+#include "geometry/shapes/surfaces/prism.h"
 
 namespace trace::pov {
 

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "formats/pov/pov_reader.h"
-#include "geometry/shapes/height_field.h"
-#include "image/codec.h"
+#include "geometry/shapes/surfaces/height_field.h"
+#include "image/codecs/codec.h"
 
 namespace trace::pov {
 

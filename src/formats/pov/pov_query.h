@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/shapes/placed.h"
+#include "geometry/shapes/solids/placed.h"
 #include "math/box.h"
 #include "scene/scene.h"
 

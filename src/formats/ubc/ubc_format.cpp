@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/named_file.h"
-#include "base/read_scope.h"
+#include "base/files/named_file.h"
+#include "base/files/read_scope.h"
 #include "base/text.h"
 #include "formats/format.h"
 #include "formats/textures.h"
@@ -23,9 +23,9 @@
 #include "formats/ubc/ubc_scene.h"
 #include "formats/ubc/ubc_values.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/conic.h"
-#include "geometry/shapes/plane.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/conic.h"
+#include "geometry/shapes/solids/plane.h"
+#include "geometry/shapes/solids/sphere.h"
 
 namespace trace {
 namespace ubc {

@@ -6,8 +6,8 @@
 #include "formats/tokens.h"
 #include "formats/ubc/ubc_format.h"
 #include "formats/ubc/ubc_scene.h"
-#include "geometry/shapes/plane.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/plane.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "math/perpendicular.h"
 
 namespace trace::ubc {

@@ -9,11 +9,11 @@
 #include "base/unique.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellate.h"
-#include "geometry/shapes/cone.h"
-#include "geometry/shapes/conic.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/cone.h"
+#include "geometry/shapes/solids/conic.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "geometry/traced.h"
 
 namespace trace {

@@ -7,7 +7,7 @@
 // some 1e-5 of the solid, the signs at the ends decide.
 #pragma once
 
-#include "geometry/shapes/orbit_trap.h"
+#include "geometry/shapes/fractals/orbit_trap.h"
 #include "geometry/solve/interval_search.h"
 #include "math/expression.h"
 #include "math/transform.h"

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "image/film.h"
+#include "image/film/film.h"
 #include "render/chains/chain.h"
 #include "render/chains/chain_move.h"
 #include "render/chains/primary_sample.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "image/pixel_filter.h"
+#include "image/film/pixel_filter.h"
 #include "image/srgb.h"
 
 namespace trace::veach {

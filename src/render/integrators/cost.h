@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "image/false_color.h"
+#include "image/comparison/false_color.h"
 #include "render/integrators/whitted.h"
 
 namespace trace {

@@ -12,7 +12,7 @@
 #include "render/samples/hashed_numbers.h"
 #include "render/samples/pixel.h"
 #include "shading/materials/lambert.h"
-#include "shading/optics.h"
+#include "shading/optics/optics.h"
 
 namespace trace {
 namespace {

@@ -12,9 +12,9 @@
 #include "render/rays/fog.h"
 #include "render/rays/gather.h"
 #include "render/world/footprint.h"
-#include "shading/dispersion.h"
 #include "shading/materials/subsurface.h"
-#include "shading/optics.h"
+#include "shading/optics/dispersion.h"
+#include "shading/optics/optics.h"
 
 namespace trace {
 

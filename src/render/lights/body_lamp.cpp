@@ -6,14 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/shapes/cone.h"
-#include "geometry/shapes/conic.h"
-#include "geometry/shapes/cube.h"
-#include "geometry/shapes/quadric.h"
-#include "geometry/shapes/rounded_box.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/superellipsoid.h"
-#include "geometry/shapes/torus.h"
+#include "geometry/shapes/solids/cone.h"
+#include "geometry/shapes/solids/conic.h"
+#include "geometry/shapes/solids/cube.h"
+#include "geometry/shapes/solids/quadric.h"
+#include "geometry/shapes/solids/rounded_box.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/superellipsoid.h"
+#include "geometry/shapes/solids/torus.h"
 #include "math/low_discrepancy.h"
 #include "math/perpendicular.h"
 #include "math/warp.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "geometry/mesh/mesh_tree.h"
-#include "geometry/shapes/sphere.h"
-#include "geometry/shapes/square.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "geometry/shapes/solids/square.h"
 #include "image/srgb.h"
 #include "math/warp.h"
 #include "render/rays/fog.h"

@@ -4,10 +4,10 @@
 #include "render/lights/light_choice.h"
 #include "render/media/media.h"
 #include "render/rays/fog.h"
-#include "shading/fresnel.h"
 #include "shading/materials/marschner.h"
 #include "shading/materials/subsurface.h"
-#include "shading/optics.h"
+#include "shading/optics/fresnel.h"
+#include "shading/optics/optics.h"
 
 namespace trace {
 

@@ -11,7 +11,7 @@
 #include "render/maps/photon_map.h"
 #include "render/rays/gather.h"
 #include "render/samples/sampler.h"
-#include "shading/dispersion.h"
+#include "shading/optics/dispersion.h"
 
 namespace trace {
 

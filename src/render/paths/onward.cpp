@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shading/fresnel.h"
-#include "shading/optics.h"
+#include "shading/optics/fresnel.h"
+#include "shading/optics/optics.h"
 
 namespace trace {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "shading/fresnel.h"
 #include "shading/materials/subsurface.h"
-#include "shading/optics.h"
+#include "shading/optics/fresnel.h"
+#include "shading/optics/optics.h"
 
 namespace trace {
 namespace {

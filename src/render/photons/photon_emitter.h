@@ -101,8 +101,7 @@ class PhotonEmitter {
   bool counts(int scatterings, bool mediumFirst) const;
   bool rests(const Flight& flight) const;
   void scatter(Flight& flight, const Vec3& point, Real forward);
-  bool goOn(Flight& flight, const Interaction& at, bool scattersIt,
-            const SubsurfaceBsdf* body);
+  bool goOn(Flight& flight, const Interaction& at, bool scattersIt, const SubsurfaceBsdf* body);
 
   std::uint64_t seedOfPass_;  ///< 0 of the first
   const World& world_;

@@ -5,7 +5,7 @@
 #include "render/paths/subsurface.h"
 #include "render/photons/photon_emitter.h"
 #include "shading/materials/subsurface.h"
-#include "shading/optics.h"
+#include "shading/optics/optics.h"
 
 namespace trace {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <optional>
 
-#include "image/film.h"
+#include "image/film/film.h"
 #include "render/samples/pixel.h"
 
 namespace trace {

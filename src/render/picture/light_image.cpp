@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "base/budget.h"
-#include "image/splat_plane.h"
+#include "image/film/splat_plane.h"
 #include "render/samples/pixel.h"
 
 namespace trace {

@@ -29,8 +29,7 @@ std::string layerName(std::string_view name) {
 std::vector<std::size_t> unnamedLights(const Scene& scene) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (scene.lights[i].links.name.empty() && !scene.lights[i].light.is<AmbientLight>())
-      found.push_back(i);
+    if (scene.lights[i].links.name.empty() && !scene.lights[i].light.is<AmbientLight>()) found.push_back(i);
   return found;
 }
 

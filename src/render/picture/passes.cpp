@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/budget.h"
-#include "image/false_color.h"
+#include "image/comparison/false_color.h"
 #include "math/box.h"
 #include "render/paths/interaction.h"
 #include "render/picture/render.h"

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "image/film.h"
+#include "image/film/film.h"
 #include "render/picture/pass_facts.h"
 #include "render/samples/integrator.h"
 

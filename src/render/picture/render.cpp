@@ -147,7 +147,8 @@ class TileRenderer {
     for (int y = tile.y0; y < tile.y1; ++y)
       for (int x = tile.x0; x < tile.x1; ++x) {
         if (isRendered(x, y) || !isBesideRendered(x, y)) continue;
-        samples.beside.push_back({x, y, firstErrorOf(tracer_, x, y, wave.end, whiteOf(tracer_.tracer().settings()))});
+        samples.beside.push_back(
+            {x, y, firstErrorOf(tracer_, x, y, wave.end, whiteOf(tracer_.tracer().settings()))});
       }
   }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "image/film.h"
+#include "image/film/film.h"
 #include "render/samples/picture_size.h"
 #include "render/samples/sampler.h"
 #include "render/world/statistics.h"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "image/film.h"
+#include "image/film/film.h"
 #include "scene/settings.h"
 #include "shading/cameras/camera.h"
 

@@ -10,7 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "image/film.h"
+#include "image/film/film.h"
 #include "render/samples/integrator.h"
 #include "render/samples/outline.h"
 #include "render/world/footprint.h"

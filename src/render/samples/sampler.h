@@ -9,7 +9,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "image/pixel_filter.h"
+#include "image/film/pixel_filter.h"
 #include "math/noise.h"
 #include "render/samples/branch.h"
 #include "render/samples/picture_size.h"

@@ -6,7 +6,7 @@
 #include "render/world/world.h"
 #include "shading/materials/principled.h"
 #include "shading/normal_map.h"
-#include "shading/optics.h"
+#include "shading/optics/optics.h"
 #include "shading/textures/image_map.h"
 
 namespace trace {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "render/world/world.h"
-#include "shading/differentials.h"
+#include "shading/optics/differentials.h"
 
 namespace trace {
 

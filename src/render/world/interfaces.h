@@ -7,7 +7,7 @@
 
 #include "math/color.h"
 #include "math/vec.h"
-#include "shading/dispersion.h"
+#include "shading/optics/dispersion.h"
 
 namespace trace {
 

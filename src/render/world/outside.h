@@ -16,7 +16,7 @@
 
 #include "render/world/ray_kind.h"
 #include "scene/scene.h"
-#include "shading/daylight.h"
+#include "shading/optics/daylight.h"
 
 namespace trace {
 

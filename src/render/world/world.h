@@ -28,9 +28,9 @@
 #include "render/world/statistics.h"
 #include "scene/groups.h"
 #include "scene/scene.h"
-#include "shading/differentials.h"
 #include "shading/lights/light.h"
 #include "shading/medium.h"
+#include "shading/optics/differentials.h"
 
 namespace trace {
 

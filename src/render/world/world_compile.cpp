@@ -6,8 +6,8 @@
 
 #include "base/match.h"
 #include "geometry/mesh/mesh_closed.h"
-#include "geometry/shapes/cone.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/cone.h"
+#include "geometry/shapes/solids/sphere.h"
 #include "render/world/number_range.h"
 #include "render/world/world.h"
 #include "scene/displacement.h"

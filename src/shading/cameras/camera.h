@@ -74,7 +74,7 @@ enum class Projection {
 };
 
 /// Where the pictures of two eyes stand in one. From redCyan on they are rendered side by side, and the
-/// finished picture shows both in one place, for glasses of two colours (image/anaglyph.h).
+/// finished picture shows both in one place, for glasses of two colours (image/development/anaglyph.h).
 enum class Stereo { off, sideBySide, crossEyed, overUnder, redCyan, halfColor, grey, dubois };
 
 constexpr bool isAnaglyph(Stereo stereo) { return stereo >= Stereo::redCyan; }

@@ -5,8 +5,8 @@
 
 #include <string_view>
 
-#include "shading/fresnel.h"
 #include "shading/materials/phong.h"
+#include "shading/optics/fresnel.h"
 #include "shading/scattering.h"
 
 namespace trace {

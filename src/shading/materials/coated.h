@@ -1,6 +1,6 @@
-// Plastic, glazed clay, varnished wood: a matt base below a clear layer (shading/coating.h); with a thin film
-// on it oil on wet asphalt, the shells of beetles, pearl (shading/thin_film.h).
-// Reciprocal. Energy: gives back at most what arrives, all of it if the base is white.
+// Plastic, glazed clay, varnished wood: a matt base below a clear layer (shading/optics/coating.h); with a
+// thin film on it oil on wet asphalt, the shells of beetles, pearl (shading/optics/thin_film.h). Reciprocal.
+// Energy: gives back at most what arrives, all of it if the base is white.
 //
 // Under Whitted's equation a smooth layer sends one mirrored ray; of a rough one the ray stands for the
 // facets that lean less than 5 degrees. Both follow Schlick's approximation, or Fresnel's formula where the
@@ -9,8 +9,8 @@
 
 #include <string_view>
 
-#include "shading/coating.h"
 #include "shading/materials/phong.h"
+#include "shading/optics/coating.h"
 
 namespace trace {
 

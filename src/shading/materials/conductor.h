@@ -1,7 +1,7 @@
 // Metal whose surface is rough on a small scale: microfacets of GGX or Beckmann with Smith's masking, mirrors
 // by Fresnel's formula for conductors (exact, from measured indices) or Schlick's, and light that is mirrored
-// several times (shading/microfacet.h); with a thin film on it anodised titanium and tempered steel
-// (shading/thin_film.h). Variant: height-correlated masking; grain after Burley 2012.
+// several times (shading/optics/microfacet.h); with a thin film on it anodised titanium and tempered steel
+// (shading/optics/thin_film.h). Variant: height-correlated masking; grain after Burley 2012.
 // Reciprocal. Energy: gives back what the metal's colour says, all of it if that is white.
 //
 // Under Whitted's equation the mirrored ray stands for the mirrors that lean less than 5 degrees.
@@ -9,11 +9,11 @@
 
 #include <string_view>
 
-#include "shading/fresnel.h"
 #include "shading/materials/phong.h"
-#include "shading/metals.h"
-#include "shading/microfacet.h"
-#include "shading/thin_film.h"
+#include "shading/optics/fresnel.h"
+#include "shading/optics/metals.h"
+#include "shading/optics/microfacet.h"
+#include "shading/optics/thin_film.h"
 
 namespace trace {
 

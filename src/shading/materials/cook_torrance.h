@@ -7,9 +7,9 @@
 
 #include <string_view>
 
-#include "shading/fresnel.h"
 #include "shading/materials/phong.h"
-#include "shading/microfacet.h"
+#include "shading/optics/fresnel.h"
+#include "shading/optics/microfacet.h"
 
 namespace trace {
 

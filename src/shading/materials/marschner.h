@@ -15,8 +15,8 @@
 #include <cmath>
 #include <string_view>
 
-#include "shading/fresnel.h"
 #include "shading/materials/phong.h"
+#include "shading/optics/fresnel.h"
 #include "shading/scattering.h"
 
 namespace trace {

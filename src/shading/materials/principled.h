@@ -4,18 +4,18 @@
 // KHR_materials_iridescence, KHR_materials_specular). Where specular_strength is below 1, the rest of the
 // base has no layer that mirrors. Where it is transparent it is a thin sheet: what its facets do not mirror
 // continues as a lobe that lies as the mirrored one does, on the other side (KHR_materials_transmission).
-// Variant: GGX; the base is coupled to what lies on it as in shading/coating.h, and each layer takes from
-// those below what it gives back itself, on the way in and out. Reciprocal. Energy: gives back at most what
-// arrives; with grain within a few percent.
+// Variant: GGX; the base is coupled to what lies on it as in shading/optics/coating.h, and each layer takes
+// from those below what it gives back itself, on the way in and out. Reciprocal. Energy: gives back at most
+// what arrives; with grain within a few percent.
 //
 // Under Whitted's equation the mirrored ray stands for the facets that lean less than 5 degrees.
 #pragma once
 
 #include <string_view>
 
-#include "shading/coating.h"
 #include "shading/materials/phong.h"
-#include "shading/sheen.h"
+#include "shading/optics/coating.h"
+#include "shading/optics/sheen.h"
 
 namespace trace {
 

@@ -13,11 +13,11 @@
 
 #include <string_view>
 
-#include "shading/fresnel.h"
-#include "shading/glass_albedo.h"
 #include "shading/interior.h"
 #include "shading/materials/phong.h"
-#include "shading/microfacet.h"
+#include "shading/optics/fresnel.h"
+#include "shading/optics/glass_albedo.h"
+#include "shading/optics/microfacet.h"
 
 namespace trace {
 

@@ -1,6 +1,7 @@
 // Marble, milk, skin, jade, wax: light goes in, is scattered many times and comes out elsewhere, below a
-// clear layer (shading/coating.h) that mirrors. What is said are the coefficients of Jensen, Marschner, Levoy
-// and Hanrahan (SIGGRAPH 2001), whose table of measured ones is part of the library of materials.
+// clear layer (shading/optics/coating.h) that mirrors. What is said are the coefficients of Jensen,
+// Marschner, Levoy and Hanrahan (SIGGRAPH 2001), whose table of measured ones is part of the library of
+// materials.
 //
 // All integrators follow light through the body (render/paths/subsurface.h), by one of three ways to tell how
 // far it gets. As the model below it comes out where it went in: the limit of a body that is large against
@@ -11,9 +12,9 @@
 #include <array>
 #include <string_view>
 
-#include "shading/coating.h"
-#include "shading/diffusion.h"
 #include "shading/materials/phong.h"
+#include "shading/optics/coating.h"
+#include "shading/optics/diffusion.h"
 
 namespace trace {
 

@@ -1,17 +1,17 @@
 // A pane whose two faces lie so close together that light goes straight through it: windows, glasses of
 // spectacles, soap bubbles. Light that is mirrored to and fro inside it is summed: of a pane thick against
-// the wavelength by its power, of a film with its phase (shading/thin_film.h). Fresnel's formula is exact.
-// Reciprocal: what goes straight on and what is mirrored is the same from both sides. Energy: all of it,
-// except for what `color` takes.
+// the wavelength by its power, of a film with its phase (shading/optics/thin_film.h). Fresnel's formula is
+// exact. Reciprocal: what goes straight on and what is mirrored is the same from both sides. Energy: all of
+// it, except for what `color` takes.
 //
 // It encloses nothing: what is inside of a bubble is air.
 #pragma once
 
 #include <string_view>
 
-#include "shading/fresnel.h"
 #include "shading/materials/phong.h"
-#include "shading/thin_film.h"
+#include "shading/optics/fresnel.h"
+#include "shading/optics/thin_film.h"
 
 namespace trace {
 

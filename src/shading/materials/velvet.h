@@ -1,12 +1,12 @@
 // Cloth with standing fibres on a matt base: dark seen from the front, bright at its edges. Sheen by Estevez
-// and Kulla (shading/sheen.h), over Lambert's base, which gets what the sheen leaves on the way in and out.
-// Reciprocal. Energy: gives back at most what arrives.
+// and Kulla (shading/optics/sheen.h), over Lambert's base, which gets what the sheen leaves on the way in and
+// out. Reciprocal. Energy: gives back at most what arrives.
 #pragma once
 
 #include <string_view>
 
 #include "shading/materials/phong.h"
-#include "shading/sheen.h"
+#include "shading/optics/sheen.h"
 
 namespace trace {
 

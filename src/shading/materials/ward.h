@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "shading/materials/phong.h"
-#include "shading/microfacet.h"
+#include "shading/optics/microfacet.h"
 
 namespace trace {
 

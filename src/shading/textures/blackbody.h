@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "base/field.h"
-#include "shading/blackbody.h"
+#include "shading/optics/blackbody.h"
 #include "shading/texture_place.h"
 
 namespace trace {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "base/field.h"
-#include "image/mipmap.h"
+#include "image/maps/mipmap.h"
 #include "shading/pixels.h"
 #include "shading/texture_place.h"
 

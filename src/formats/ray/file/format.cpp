@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "base/read_scope.h"
+#include "base/files/read_scope.h"
 #include "formats/ray/file/part.h"
 #include "formats/ray/file/students.h"
 #include "formats/ray/language/language.h"

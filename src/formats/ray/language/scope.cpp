@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/budget.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
 #include "formats/ray/language/language.h"
 #include "formats/ray/read/objects.h"

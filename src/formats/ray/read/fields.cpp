@@ -6,14 +6,14 @@
 #include <cstdio>
 #include <string>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
 #include "formats/ies.h"
 #include "formats/ray/read/texture.h"
 #include "formats/ray/syntax/names.h"
 #include "formats/textures.h"
-#include "image/codec.h"
-#include "image/picture_name.h"
+#include "image/codecs/codec.h"
+#include "image/codecs/picture_name.h"
 
 namespace trace::rayfile {
 

@@ -14,7 +14,7 @@
 #include "formats/ray/syntax/findings.h"
 #include "formats/ray/syntax/syntax.h"
 #include "geometry/field_value.h"
-#include "geometry/shapes/heights.h"
+#include "geometry/shapes/surfaces/heights.h"
 #include "math/color.h"
 #include "math/vec.h"
 #include "shading/formula_text.h"

@@ -5,8 +5,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/file.h"
-#include "base/named_file.h"
+#include "base/files/file.h"
+#include "base/files/named_file.h"
 #include "formats/format.h"
 #include "formats/ray/read/fields.h"
 #include "geometry/mesh/mesh.h"

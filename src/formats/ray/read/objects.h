@@ -15,7 +15,7 @@
 #include "formats/ray/syntax/findings.h"
 #include "formats/ray/syntax/syntax.h"
 #include "formats/scene_time.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 #include "math/transform.h"
 #include "scene/groups.h"
 

@@ -9,7 +9,7 @@
 #include "base/budget.h"
 #include "formats/ray/read/fields.h"
 #include "formats/ray/read/objects.h"
-#include "geometry/shapes/sphere.h"
+#include "geometry/shapes/solids/sphere.h"
 
 namespace trace::rayfile {
 namespace {

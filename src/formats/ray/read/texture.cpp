@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
 #include "formats/ray/read/student_textures.h"
-#include "image/picture_name.h"
+#include "image/codecs/picture_name.h"
 #include "shading/texture_flaws.h"
 #include "shading/textures/image_map.h"
 #include "shading/textures/marble.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "formats/ray/syntax/syntax.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 #include "scene/scene.h"
 
 namespace trace {

@@ -6,7 +6,7 @@
 
 #include "base/match.h"
 #include "geometry/field_value.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 
 namespace trace::rayfile {
 namespace {

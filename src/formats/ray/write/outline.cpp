@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "formats/ray/read/fields.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 #include "shading/materials/phong.h"
 
 namespace trace::rayfile {

@@ -6,7 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "base/file.h"
+#include "base/files/file.h"
 #include "formats/ray/file/format.h"
 #include "formats/ray/file/students.h"
 #include "formats/ray/syntax/names.h"
@@ -15,7 +15,7 @@
 #include "formats/ray/write/round.h"
 #include "formats/ray/write/same.h"
 #include "formats/ray/write/writer.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 #include "scene/rows.h"
 
 namespace trace {

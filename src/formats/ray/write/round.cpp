@@ -11,9 +11,9 @@
 #include "formats/ray/write/same.h"
 #include "formats/ray/write/writer.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/csg.h"
-#include "geometry/shapes/csg_tree.h"
-#include "geometry/shapes/height_field.h"
+#include "geometry/shapes/solids/csg.h"
+#include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/shapes/surfaces/height_field.h"
 
 namespace trace::rayfile {
 namespace {

@@ -5,7 +5,7 @@
 #include "formats/ray/write/transform.h"
 #include "geometry/field_value.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 
 namespace trace::rayfile {
 namespace {

@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "base/budget.h"
-#include "base/file.h"
+#include "base/files/file.h"
 #include "base/text.h"
 #include "formats/picture_files.h"
 #include "formats/ray/read/fields.h"
@@ -27,7 +27,7 @@
 #include "formats/ray/write/transform.h"
 #include "geometry/field_value.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/shapes/csg_tree.h"
+#include "geometry/shapes/solids/csg_tree.h"
 
 namespace trace {
 namespace rayfile {

@@ -1,0 +1,25 @@
+#include "base/files/file.h"
+
+#include <filesystem>
+#include <system_error>
+
+#include "base/error.h"
+#include "base/files/read_scope.h"
+
+namespace trace {
+namespace fs = std::filesystem;
+std::string readBeside(const std::string& from, const std::string& name) {
+  const std::string path = besideFile(from, name);
+  checkMayRead(path);
+  std::error_code ignored;
+  if (fs::exists(path, ignored) && !isOrdinaryFile(path))
+    throw Error(Fault::io, "cannot read \"" + path + "\": it is no ordinary file");
+  return readFile(path);
+}
+
+std::string besideFile(const std::string& from, const std::string& name) {
+  const fs::path path(name);
+  return path.is_absolute() ? name : (fs::path(from).parent_path() / path).string();
+}
+
+}  // namespace trace

@@ -1,0 +1,100 @@
+#include "base/files/read_scope.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+namespace trace {
+namespace {
+
+namespace fs = std::filesystem;
+
+thread_local std::shared_ptr<const ReadRules> rulesOfThread;
+
+/// Absolute and without links; what does not exist is kept as it is named. "" if it cannot be told.
+std::string realPath(const fs::path& path) {
+  std::error_code error;
+  const fs::path whole = fs::absolute(path.empty() ? "." : path, error);
+  if (error) return {};
+  fs::path real = fs::weakly_canonical(whole, error);
+  if (error) return {};
+  if (!real.has_filename() && real.has_parent_path() && real != real.root_path()) real = real.parent_path();
+  return real.string();
+}
+
+/// Is the path the folder, or below it?
+bool isBelow(const std::string& path, const std::string& folder) {
+  if (folder.empty() || !path.starts_with(folder)) return false;
+  return path.size() == folder.size() || folder.back() == '/' || path[folder.size()] == '/';
+}
+
+bool isBelowOne(const std::string& path, const std::vector<std::string>& folders) {
+  return std::any_of(folders.begin(), folders.end(),
+                     [&](const std::string& folder) { return isBelow(path, folder); });
+}
+
+void addReal(std::vector<std::string>& to, const std::vector<std::string>& paths) {
+  for (const std::string& path : paths)
+    if (std::string real = realPath(path); !real.empty()) to.push_back(std::move(real));
+}
+
+ReadRules copyOfCurrent() { return rulesOfThread ? *rulesOfThread : ReadRules{}; }
+
+}  // namespace
+
+void ReadDenied::at(const Place& place) const {
+  Message message = messages().front();
+  if (message.place.file.empty()) message.place = place;
+  throw ReadDenied(fault(), {message});
+}
+
+ReadScope::ReadScope(const std::vector<std::string>& allowed, const std::vector<std::string>& denied)
+    : before_(rulesOfThread) {
+  ReadRules rules = copyOfCurrent();
+  addReal(rules.allowed, allowed);
+  addReal(rules.denied, denied);
+  rulesOfThread = std::make_shared<const ReadRules>(std::move(rules));
+}
+
+ReadScope::ReadScope(std::shared_ptr<const ReadRules> rules) : before_(rulesOfThread) {
+  rulesOfThread = std::move(rules);
+}
+
+ReadScope ReadScope::ofScene(const std::string& file) {
+  ReadRules rules = copyOfCurrent();
+  if (rules.root.empty()) rules.root = realPath(fs::path(file).parent_path());
+  if (rules.root.empty()) rules.root = file;  // a folder that cannot be found holds nothing
+  return ReadScope(std::make_shared<const ReadRules>(std::move(rules)));
+}
+
+ReadScope::~ReadScope() { rulesOfThread = before_; }
+
+std::shared_ptr<const ReadRules> ReadScope::current() { return rulesOfThread; }
+
+std::string shellWord(const std::string& text) {
+  const bool plain = text.find_first_of(" \t\"'\\$&;()<>|*?`!#~") == text.npos;
+  return plain ? text : "\"" + text + "\"";
+}
+
+bool mayRead(const std::string& path) {
+  if (!rulesOfThread) return true;
+  const ReadRules& rules = *rulesOfThread;
+  const std::string real = realPath(path);
+  if (real.empty() || isBelowOne(real, rules.denied)) return false;
+  return rules.root.empty() || isBelow(real, rules.root) || isBelowOne(real, rules.allowed);
+}
+
+void checkMayRead(const std::string& path) {
+  if (mayRead(path)) return;
+  const std::string real = realPath(path);
+  if (real.empty() || isBelowOne(real, rulesOfThread->denied))
+    throw ReadDenied(Fault::scene, "\"" + path + "\" may not be read by a scene");
+  fs::path folder = fs::path(path).parent_path().lexically_normal();
+  if (folder.empty()) folder = ".";
+  throw ReadDenied(Fault::scene,
+                   "\"" + path + "\" is outside the scene's folder, and a scene may read only below that",
+                   "--allow-read " + shellWord(folder.string()) + " allows it (docs/security.md)");
+}
+
+}  // namespace trace

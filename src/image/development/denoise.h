@@ -1,0 +1,32 @@
+// Noise taken out of a picture: every pixel becomes a mean of pixels around it that are alike.
+//
+// How alike two pixels are is judged twice, and the stricter one counts: by the colours of the patches around
+// them, against the noise that is known of both (non-local means with variances: Rousselle, Knaus and
+// Zwicker, Adaptive Rendering with Non-Local Means Filtering, 2012), and by what their first surfaces are
+// (Rousselle, Manzi and Zwicker, Robust Denoising using Feature and Color Information, 2013). One half of the
+// samples says how the other is averaged, and the other way round, so that noise does not choose what it is
+// averaged with. We differ: features are measured against their slope alone, and there is one filter instead
+// of three.
+#pragma once
+
+#include "base/parallel.h"
+#include "image/film/film.h"
+
+namespace trace {
+
+/// The guides of denoising: features of the first surfaces, on the average of a pixel's samples.
+struct NoiseGuides {
+  Picture albedo, normal;
+  Picture nearness;  ///< 1 / depth; 0 where nothing is hit
+};
+
+/// Bytes that a pixel takes meanwhile: the halves and guides, their planes of floats, and the results.
+constexpr std::uint64_t denoisingBytesPerPixel() {
+  return 8 * sizeof(Color) + 2 * sizeof(double) + 24 * sizeof(float);
+}
+
+/// Pixels without samples in both halves stay black, and count for no other. The same bits for any number of
+/// threads; 0 takes all. Rows that a cancelled job did not come to stay black.
+Picture withoutNoise(const Halves& halves, const NoiseGuides& guides, int threads, Job& job);
+
+}  // namespace trace

@@ -1,0 +1,86 @@
+// The buttons above the picture, and what stands in its place while there is none.
+#include <cmath>
+
+#include "app/view/picture_views.h"
+#include "studio/actions.h"
+#include "studio/picture/picture_parts.h"
+#include "studio/widgets/landmarks.h"
+
+namespace trace::studio {
+
+void drawBar(Studio& studio) {
+  PictureView& view = studio.picture;
+  const bool open = studio.workspace.document.isOpen();
+  const auto button = [&](const char* name, const char* tip, bool enabled) {
+    ImGui::BeginDisabled(!enabled);
+    const bool pressed = ImGui::Button(name);
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) ImGui::SetTooltip("%s", tip);
+    ImGui::SameLine();
+    return pressed;
+  };
+  const bool working = studio.workspace.render.state().working();
+  if (!working && button("Render", "render the scene as it is now (F5)", open))
+    studio.workspace.startRender();
+  if (working && button(" Stop ", "stop; finished parts stay (Esc)", true)) studio.workspace.render.stop();
+  const auto runAction = [&](const char* name) {
+    for (const Action& action : actions())
+      if (std::string_view(action.name) == name) action.run(studio);
+  };
+  if (button("Export...", "write the picture to a file (Ctrl+E)", !view.pictureTexture.empty()))
+    runAction("Export picture...");
+  if (button("Fit", "the whole picture (F)", true)) view.fit = true;
+  if (button("1:1", "one pixel to one of the screen (A)", true)) {
+    view.fit = false;
+    view.zoom = 1;
+  }
+
+  const auto roomFor = [](float wide) {  // else on the next line
+    if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
+  };
+  roomFor(characters(17));
+  ImGui::SetNextItemWidth(characters(17));
+  ImGui::SliderFloat("##exposure", &view.exposure, -6, 6,
+                     view.exposure == 0 ? "exposure 0" : "exposure %+.1f");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("stops: powers of two; only what is shown, not what is saved\nright click: 0");
+  if (ImGui::IsItemClicked(1)) view.exposure = 0;
+  ImGui::SameLine();
+  roomFor(characters(17));
+  ImGui::SetNextItemWidth(characters(17));
+  std::optional<Way>& alone = studio.rays.pyramid.alone;
+  if (alone) {
+    if (ImGui::Button("All ways", {characters(17), 0})) alone.reset();
+    landmark("all ways");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to the whole picture, from a single strategy");
+    return;
+  }
+  int plane = static_cast<int>(view.plane);
+  if (ImGui::Combo("##plane", &plane, kPlaneNames, static_cast<int>(std::size(kPlaneNames))))
+    view.plane = static_cast<FilmPlane>(plane);
+  landmark("plane");
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip(
+        "the picture, how many rays each pixel has, how much noise is left in it, or what denoise "
+        "changed");
+  if (!studio.workspace.reference()) {
+    ImGui::SameLine();
+    roomFor(ImGui::CalcTextSize("Compare...").x + 2 * ImGui::GetStyle().FramePadding.x);
+    if (ImGui::Button("Compare...")) runAction("Open reference...");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("choose a picture to compare with (Ctrl+Shift+R)");
+    return;
+  }
+  int index = static_cast<int>(view.view);
+  ImGui::SetNextItemWidth(characters(20));
+  if (ImGui::Combo("##view", &index, kViewNames, static_cast<int>(std::size(kViewNames))))
+    view.view = static_cast<View>(index);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("how the two pictures are shown (C)");
+  if (view.view == View::difference || view.view == View::falseColour) {
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(characters(14));
+    ImGui::SliderFloat("##magnify", &view.magnify, 1, 255, "x %.0f", ImGuiSliderFlags_Logarithmic);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("by which differences are magnified");
+  }
+}
+
+}  // namespace trace::studio

@@ -1,0 +1,62 @@
+// How the picture is looked at: zoom, exposure, comparison; and its textures.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/view/picture_views.h"
+#include "app/view/pixel_choice.h"
+#include "image/picture.h"
+#include "studio/widgets/texture.h"
+
+namespace trace::studio {
+
+enum class View { picture, reference, sideBySide, swipe, difference, falseColour };
+inline constexpr const char* kViewNames[] = {"Picture", "Reference",  "Side by side",
+                                             "Swipe",   "Difference", "False colour"};
+
+struct PictureView {
+  View view = View::picture;
+  FilmPlane plane = FilmPlane::picture;  ///< what of the render is seen
+  bool fit = true;
+  float zoom = 1;                       ///< screen pixels per pixel of the picture
+  double centreX = 0.5, centreY = 0.5;  ///< what is in the middle, in shares of the picture
+  float exposure = 0;                   ///< stops
+  float swipe = 0.5f;                   ///< share that shows the picture
+  float magnify = 8;                    ///< magnify of the difference
+  PixelChoice pixel;                    ///< that was clicked
+
+  // The contents of the textures.
+  Texture pictureTexture, referenceTexture, differenceTexture;
+  bool waits = false;  ///< for the first picture of a scene
+  Picture shown;       ///< linear colours of the render
+  Picture levels;      ///< what the tone makes of them, whose levels pictureTexture shows
+  std::uint64_t shownVersion = ~std::uint64_t{0}, referenceVersion = ~std::uint64_t{0};
+  double refreshed = 0, refreshCost = 0;  ///< seconds
+  // How the textures were made.
+  float exposed = 0;
+  Development development;
+  Rounding rounding = Rounding::truncate;
+  View differenceView = View::picture;
+  float differenceMagnify = 0;
+
+  Texture planeTexture;     ///< where another plane than the picture is seen
+  std::string planeLegend;  ///< what its colours mean
+  FilmPlane planeShown = FilmPlane::picture;
+  Convergence convergence;    ///< convergence of the shown picture
+  std::vector<float> noise;   ///< levels, one for each look at the render that continues
+  std::uint64_t noiseOf = 0;  ///< the render's number
+
+  /// Takes the pixel as if it were clicked, and brings it into view.
+  void goTo(int x, int y) {
+    pixel.choose(x, y, {shown.width, shown.height});
+    if (!fit) {
+      centreX = (x + 0.5) / shown.width;
+      centreY = (y + 0.5) / shown.height;
+    }
+  }
+  void nextView() { view = static_cast<View>((static_cast<int>(view) + 1) % 6); }
+};
+
+}  // namespace trace::studio

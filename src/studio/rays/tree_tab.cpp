@@ -1,0 +1,119 @@
+// The tab Tree of the panel Rays: each ray below the one that sent it.
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "studio/rays/ray_rows.h"
+#include "studio/space/rays_view.h"
+
+namespace trace::studio {
+namespace {
+
+constexpr int kMostIndented = 12;  // levels: deeper rays stand at the same margin
+
+/// Behind the row of the ray at fault.
+ImU32 faultColour(const Studio& studio) {
+  const ImVec4& c = studio.palette().changed;
+  return ImGui::GetColorU32(ImVec4(c.x, c.y, c.z, 0.3f));
+}
+
+/// With so much room left free below it.
+void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<int>& rows, float below) {
+  RaysView& view = studio.rays;
+  const std::vector<RayNode>& nodes = pixel.tree().nodes;
+  if (!ImGui::BeginTable("tree", 4, kRayTable, {0, -below})) return;
+  ImGui::TableSetupScrollFreeze(0, 1);
+  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, 0.4f);
+  ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, 0.27f);
+  ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(9));
+  ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.33f);
+  columnHeads({"its kind and its secondary rays", "the object, light or medium that it came to",
+               "the largest channel of its contribution to the pixel: its radiance times its weight there",
+               "why it ended, or how it continues"});
+  if (const auto found = std::find(rows.begin(), rows.end(), view.scrollTo); found != rows.end()) {
+    const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
+    const float top = static_cast<float>(found - rows.begin()) * height, room = ImGui::GetWindowHeight();
+    if (top < ImGui::GetScrollY() || top + 2 * height > ImGui::GetScrollY() + room)
+      ImGui::SetScrollY(std::max(0.0f, top - room / 2));
+  }
+  view.scrollTo = -1;
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(rows.size()));
+  while (clipper.Step())
+    for (int r = clipper.DisplayStart; r < clipper.DisplayEnd; ++r) {
+      const int i = rows[static_cast<std::size_t>(r)];
+      const auto n = static_cast<std::size_t>(i);
+      const RayNode& node = nodes[n];
+      ImGui::PushID(i);
+      ImGui::TableNextRow();
+      if (i == pixel.why.ray) ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, faultColour(studio));
+      if (i == view.hoveredBefore)
+        ImGui::TableSetBgColor(ImGuiTableBgTarget_RowBg1, ImGui::GetColorU32(ImGuiCol_FrameBgHovered));
+      ImGui::TableNextColumn();
+      const ImVec2 start = ImGui::GetCursorPos();
+      const bool chosen =
+          ImGui::Selectable("##row", i == view.selected,
+                            ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap);
+      const bool overRow = ImGui::IsItemHovered();
+      if (i == pixel.why.ray) {  // also where it is selected
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + 0.25f * ImGui::GetFontSize(), high.y},
+                                                  ImGui::GetColorU32(studio.palette().changed));
+      }
+      const float indent =
+          static_cast<float>(std::min(pixel.level[n], kMostIndented)) * ImGui::GetFontSize() * 0.75f;
+      ImGui::SetCursorPos({start.x + indent, start.y});
+      ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_NoTreePushOnOpen;
+      if (!pixel.hasChildren[n]) flags |= ImGuiTreeNodeFlags_Leaf;
+      ImGui::SetNextItemOpen(!view.closed[n]);
+      ImGui::PushStyleColor(ImGuiCol_Text, rayColour(studio, pixel, i));
+      const bool open = ImGui::TreeNodeEx("##node", flags, "%s", rayName(pixel, i));
+      ImGui::PopStyleColor();
+      if (ImGui::IsItemToggledOpen())
+        view.closed[n] = !open;
+      else if (chosen || ImGui::IsItemClicked())
+        view.selected = i;
+      if (overRow || ImGui::IsItemHovered()) {
+        view.hovered = i;
+        if (ImGui::IsMouseDoubleClicked(0)) studio.raysTab = "Ray";
+      }
+      ImGui::TableNextColumn();
+      cutText(metBy(pixel, i));
+      ImGui::TableNextColumn();
+      if (node.kind != RayKind::shadow && node.kind != RayKind::light) {
+        ImGui::Text("%.4f", share(node));
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", channels(node.weight * node.radiance).c_str());
+      }
+      ImGui::TableNextColumn();
+      cutText(sentence(node, pixel.scene()));
+      ImGui::PopID();
+    }
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void drawTree(Studio& studio, const TracedPixel& pixel) {
+  RaysView& view = studio.rays;
+  const std::vector<RayNode>& nodes = pixel.tree().nodes;
+  std::vector<int> rows;
+  int below = -1;  // the level of a closed node whose children are passed over
+  for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    if (below >= 0 && pixel.level[n] > below) continue;
+    below = view.closed[n] ? pixel.level[n] : -1;
+    if (view.inStep(i)) rows.push_back(i);
+  }
+  const bool any = view.selected >= 0;
+  drawTreeTable(studio, pixel, rows, any ? ImGui::GetFrameHeightWithSpacing() : 0);
+  if (!any) return;
+  if (ImGui::Button("Numbers")) studio.raysTab = "Ray";
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("all that is known of the selected ray (double click on its row)");
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextColored(rayColour(studio, pixel, view.selected), "%s",
+                     sentence(rayAt(pixel.tree(), view.selected), pixel.scene()).c_str());
+}
+
+}  // namespace trace::studio

@@ -1,0 +1,113 @@
+// Why the chosen pixel has its colour, in the panel Rays: a sentence, the sum as swatches, and buttons that
+// cure.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "studio/panels.h"
+#include "studio/rays/ray_rows.h"
+#include "studio/space/rays_view.h"
+#include "studio/widgets/landmarks.h"
+
+namespace trace::studio {
+namespace {
+
+/// As the picture would show the light.
+ImVec4 swatchColour(const Color& c, Real exposure) {
+  const auto level = [&](Real x) {
+    const Real shown = std::clamp(x * std::exp2(exposure), 0.0, 1.0);
+    return static_cast<float>(shown <= 0.0031308 ? 12.92 * shown : 1.055 * std::pow(shown, 1 / 2.4) - 0.055);
+  };
+  return {level(c.r), level(c.g), level(c.b), 1};
+}
+
+/// On this line if it fits, else on the next.
+void beside(float wide) {
+  ImGui::SameLine();
+  if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
+}
+
+void drawSum(Studio& studio, const TracedPixel& pixel) {
+  const std::vector<WhySummand>& sum = pixel.why.sum;
+  if (sum.empty()) return;
+  const Settings& settings = pixel.session->settings();
+  const Real exposure = settings.exposure + pixel.session->measuredExposure();
+  const float side = ImGui::GetTextLineHeight();
+  const auto swatch = [&](const char* id, const std::string& name, const Color& color) {
+    const bool pressed =
+        ImGui::ColorButton(id, swatchColour(color, exposure),
+                           ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {side, side});
+    const bool over = ImGui::IsItemHovered();
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::TextUnformatted(name.c_str());
+    if (over || ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", name.c_str(), channels(color).c_str());
+    return pressed || ImGui::IsItemClicked();
+  };
+  const float gaps = side + 2 * ImGui::GetStyle().ItemInnerSpacing.x + characters(3);
+  swatch("##sum", "=", pixel.tree().nodes.front().radiance);
+  landmark("sum");
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    const std::string name = sum[i].name.substr(0, sum[i].name.find(" (")) +  // its place is in the tree
+                             (i + 1 < sum.size() ? "  +" : "");
+    beside(gaps + ImGui::CalcTextSize(name.c_str()).x);
+    ImGui::PushID(static_cast<int>(i));
+    if (swatch("##term", name, sum[i].color) && sum[i].ray >= 0)
+      studio.rays.selected = studio.rays.scrollTo = sum[i].ray;
+    ImGui::PopID();
+  }
+}
+
+void drawCures(Studio& studio, const TracedPixel& pixel) {
+  const std::vector<WhyCure>& cures = pixel.why.cures;
+  if (cures.empty()) return;
+  bool first = true;
+  const auto next = [&](const std::string& label, const char* help) {
+    if (!std::exchange(first, false))
+      beside(ImGui::CalcTextSize(label.c_str()).x + 2 * ImGui::GetStyle().FramePadding.x);
+    const bool pressed = ImGui::Button(label.c_str());
+    landmark("cure " + label);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+    return pressed;
+  };
+  const WhyCure last = cures.back();
+  for (const WhyCure& each : cures)
+    if (next(each.label, each.object ? "show it in the panel Scene" : "try it; Ctrl+Z undoes it"))
+      return cure(studio, pixel, each, false);
+  if (!last.option.empty() &&
+      next("Pin and try " + last.label, "keep these rays, and compare them in the tab Difference"))
+    cure(studio, pixel, last, true);
+}
+
+}  // namespace
+
+void cure(Studio& studio, const TracedPixel&, const WhyCure& by, bool pins) {
+  if (by.object) {
+    studio.select(Studio::Selected::object, *by.object);
+    studio.show("Scene");
+    return;
+  }
+  if (pins) {
+    studio.workspace.inspector.pin(true);
+    studio.raysTab = "Difference";
+  }
+  studio.workspace.choose(std::string(by.option), by.value);
+}
+
+void drawWhy(Studio& studio, const TracedPixel& pixel) {
+  const PixelWhy& why = pixel.why;
+  if (why.sentence.empty()) return;
+  ImGui::PushTextWrapPos();
+  ImGui::TextColored(why.ray >= 0 ? studio.palette().changed : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%s",
+                     why.sentence.c_str());
+  ImGui::PopTextWrapPos();
+  landmark("why");
+  if (ImGui::IsItemClicked() && why.ray >= 0) studio.rays.selected = studio.rays.scrollTo = why.ray;
+  const bool roomy = ImGui::GetWindowHeight() > 26 * ImGui::GetTextLineHeightWithSpacing();
+  if (roomy && !studio.rays.pyramid.open) drawSum(studio, pixel);
+  drawCures(studio, pixel);
+}
+
+}  // namespace trace::studio

@@ -1,0 +1,150 @@
+// How the panel Rays shows the rays that app/explain/pixel_inspector.h has of a pixel, in space and as a
+// tree.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/explain/chain_walk.h"
+#include "app/explain/pixel_inspector.h"
+#include "app/view/orbit_camera.h"
+#include "app/view/scene_model.h"
+#include "app/view/way_pyramid.h"
+#include "image/development/development.h"
+#include "render/rays/visited_boxes.h"
+#include "studio/space/scene_drawer.h"
+#include "studio/widgets/texture.h"
+
+namespace trace::studio {
+
+/// Pictures of ways, on the graphics card too.
+struct WayPictures {
+  PyramidMaker maker;
+  std::vector<std::unique_ptr<Texture>> textures{};
+};
+
+/// The tab Pyramid, and the way that is seen alone in place of the picture.
+struct PyramidView {
+  WayPictures all, one;
+  bool open = false;   ///< the tab was drawn in the last frame
+  bool waits = false;  ///< for the picture, which comes first
+  bool unweighted = false;
+  int places = 5;              ///< places of the longest paths
+  std::optional<Way> alone{};  ///< nothing of the document changes for it
+  double exposure = 0;         ///< with which the pictures are shown
+  Development development{};
+  bool busy() const { return all.maker.busy() || one.maker.busy(); }
+};
+
+/// The view in the panel Picture in place of the picture.
+struct InPlaceOfPicture {
+  const Texture* texture = nullptr;  ///< null: the picture is seen all the same
+  std::string caption{};             ///< "" if nothing is to be said of it
+};
+
+enum class Surfaces { shaded, wireframe, none };
+
+struct RaysView {
+  /// Seconds without mouse and keys, after which there is time for a smooth view in space.
+  static constexpr double kRest = 0.12;
+
+  int sample = 0;        ///< that is asked for
+  std::size_t rays = 0;  ///< rays of the pixel that is shown
+  int x = -1, y = -1;    ///< x and y of that pixel
+  int clickedX = -1, clickedY = -1;
+  int selected = -1;         ///< ray of the pixel; -1: none
+  int hovered = -1;          ///< under the cursor, in space or in the table, in this frame
+  int hoveredBefore = -1;    ///< in the last frame
+  int scrollTo = -1;         ///< ray whose row the table is to show
+  int step = -1;             ///< rays shown in the order of tracing; -1: all
+  std::vector<char> closed;  ///< nodes whose children the table hides
+
+  std::vector<VisitedBox> boxes;  ///< boxes of the hierarchies, by the selected ray
+  int boxesOf = -1;               ///< the node that they are of
+  int box = 0;                    ///< how many are shown
+
+  int way = -1;              ///< index of the chosen strategy; -1: none is chosen
+  std::vector<int> wayRays;  ///< its rays, drawn before all others
+  bool revealWay = false;    ///< the table scrolls to it
+
+  PyramidView pyramid;
+
+  ChainInspector chains;    ///< chains of `mlt`: a chain that comes by the pixel
+  int chainMove = -1;       ///< whose rays are asked for; -1: the one that came nearest to the pixel
+  bool revealMove = false;  ///< the table scrolls to it
+
+  // The view in space.
+  std::unique_ptr<SceneDrawer> drawer;
+  bool coarse = false;                      ///< the last frame drew it, and the next makes it smoother
+  std::uint64_t pictureVersion = 0;         ///< version of the picture on its plane
+  double pictureSince = -1;                 ///< when it was drawn, in seconds
+  std::string modelOf;                      ///< the scene file that `model` belongs to
+  bool built = false;                       ///< `model` is there
+  SceneModel model;                         ///< that is drawn
+  std::shared_ptr<const Scene> modelScene;  ///< whose model was asked for
+  std::shared_ptr<SceneModeler> modeler = std::make_shared<SceneModeler>();  ///< used by modelTask alone
+  struct Modelled {
+    std::string file;
+    SceneModel model;
+  };
+  BackgroundTask<Modelled> modelTask;
+  std::string orbitFile;   ///< the scene file that `orbit` was set for
+  std::string orbitGuess;  ///< the same, before there is a World to see it with
+  OrbitCamera orbit;
+  Real size = 1;  ///< radius of what is looked at: of lights, normals and rays that leave the scene
+  bool fromCamera = false;
+  std::weak_ptr<const Session> wallsOf;  ///< for which the walls were found
+  std::vector<std::uint32_t>
+      walls;               ///< walls of the room that the scene's camera stands in; see app/view/room.h
+  bool roomOpened = true;  ///< those of them that hide its inside are left out
+  Surfaces surfaces = Surfaces::shaded;
+  float opacity = 1;  ///< opacity of surfaces
+  bool boundsShown = false, normalsShown = false, lightsShown = true, cameraShown = true, axesShown = false;
+  bool raysFramed = true;  ///< a click brings the pixel's rays into sight
+  bool frameDue = false;   ///< the rays that are shown next are
+  bool pictureShown = true, hitNormalsShown = true, pinnedShown = true, hierarchyShown = true;
+  std::array<bool, kRayLooks.size()> lookHidden{};
+
+  bool inStep(int node) const { return step < 0 || node < step; }
+};
+
+/// In a dark window the colours of the table are lightened.
+inline Color colourOf(RayLooks looks, bool light) {
+  return light ? look(looks).color : lerp(0.35, look(looks).color, Color(1));
+}
+
+struct Studio;
+
+/// Asks for the rays of the pixel that is selected and takes those that have come.
+void updateRays(Studio& studio);
+/// The pixel whose rays are shown; null if there are none.
+const TracedPixel* shownPixel(const Studio& studio);
+/// So many rays on in the order of tracing, or back: from the first on if all are shown, or from the last
+/// back.
+void stepRays(Studio& studio, int rays);
+/// Finds the hierarchy boxes that the selected ray visited.
+void showBoxes(Studio& studio);
+/// The tab that lists the moves of a chain.
+void drawChain(Studio& studio, const TracedPixel& pixel);
+/// Chooses one of the pixel's ways, or none.
+void chooseWay(Studio& studio, int way);
+/// The tab that lists them.
+void drawWays(Studio& studio, const TracedPixel& pixel);
+/// The tab that shows what each way brings to the whole picture.
+void drawPyramid(Studio& studio, const TracedPixel& pixel);
+/// Asks for the pictures of ways that are to be seen, and takes those that have come. For each frame.
+void updateWays(Studio& studio);
+/// The way that is seen alone, if one is chosen.
+InPlaceOfPicture wayAlone(const Studio& studio);
+/// Why the pixel has its colour: a sentence, the sum, and what may cure it.
+void drawWhy(Studio& studio, const TracedPixel& pixel);
+/// Chooses the cure, after pinning the pixel's rays if that is asked for.
+void cure(Studio& studio, const TracedPixel& pixel, const WhyCure& by, bool pins);
+/// The tab that compares the rays with those that were pinned.
+void drawDifference(Studio& studio, const TracedPixel& traced);
+/// The scene and the rays in space, with its switches and legend, in the rest of the child window.
+void drawSpace(Studio& studio);
+
+}  // namespace trace::studio

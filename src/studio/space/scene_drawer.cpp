@@ -1,0 +1,403 @@
+#include "studio/space/scene_drawer.h"
+
+#define GL_GLEXT_PROTOTYPES
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "studio/space/see_through.h"
+#include "studio/space/shader.h"
+
+namespace trace::studio {
+namespace {
+
+/// Places in a pixel, one for each step towards the smooth picture: its rows and columns each have one.
+constexpr std::array<std::array<double, 2>, 8> kPlaces{{{0.5625, 0.4375},
+                                                        {0.0625, 0.9375},
+                                                        {0.8125, 0.1875},
+                                                        {0.3125, 0.6875},
+                                                        {0.9375, 0.8125},
+                                                        {0.1875, 0.3125},
+                                                        {0.4375, 0.0625},
+                                                        {0.6875, 0.5625}}};
+
+constexpr const char* kSurfaceVertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+uniform mat4 matrix;
+out vec3 place, facing;
+void main() {
+  place = position;
+  facing = normal;
+  gl_Position = matrix * vec4(position, 1);
+})";
+
+// Lit from the eye and a little from above, on both sides.
+const std::string kSurfaceFragment = std::string("#version 330 core") + SeeThrough::kDeclarations + R"(
+in vec3 place, facing;
+uniform vec3 eye, inside;
+uniform bool wall;
+uniform vec4 colour;
+out vec4 result;
+void main() {
+  vec3 across = cross(dFdx(place), dFdy(place));  // as app/view/room.h has it
+  if (wall && dot(across, eye - place) * dot(across, inside - place) < 0) discard;
+  peel();
+  vec3 n = normalize(facing), v = normalize(eye - place);
+  if (dot(n, v) < 0) n = -n;
+  float light = 0.3 + 0.6 * dot(n, v) + 0.1 * n.y;
+  float edge = pow(1 - dot(n, v), 3);
+  result = vec4(colour.rgb * light, mix(colour.a, 1, colour.a < 1 ? 0.5 * edge : 0));
+})";
+
+// A line is a quad that faces the eye: both ends come with every corner.
+constexpr const char* kLineVertex = R"(#version 330 core
+layout(location = 0) in vec3 start;
+layout(location = 1) in vec3 finish;
+layout(location = 2) in vec4 tint;
+layout(location = 3) in vec4 shape;  // which end, which side, width, dash
+uniform mat4 matrix;
+uniform vec2 size;
+out vec4 colour;
+noperspective out float along;
+flat out float dash;
+void main() {
+  vec4 a = matrix * vec4(start, 1), b = matrix * vec4(finish, 1);
+  float least = 1e-4;
+  if (a.w < least && b.w >= least) a = mix(a, b, (least - a.w) / (b.w - a.w));
+  if (b.w < least && a.w >= least) b = mix(b, a, (least - b.w) / (a.w - b.w));
+  vec2 p = a.xy / a.w * size * 0.5, q = b.xy / b.w * size * 0.5;
+  vec2 way = q - p;
+  float far = length(way);
+  vec2 side = far > 0 ? vec2(-way.y, way.x) / far : vec2(1, 0);
+  vec4 here = shape.x < 0.5 ? a : b;
+  here.xy += side * shape.y * shape.z / size * here.w;
+  colour = tint;
+  along = shape.x < 0.5 ? 0 : far;
+  dash = shape.w;
+  gl_Position = here;
+})";
+
+constexpr const char* kLineFragment = R"(#version 330 core
+in vec4 colour;
+noperspective in float along;
+flat in float dash;
+uniform float opacity;
+out vec4 result;
+void main() {
+  if (dash > 0 && mod(along, 2 * dash) > dash) discard;
+  result = vec4(colour.rgb, colour.a * opacity);
+})";
+
+constexpr const char* kPictureVertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec2 uv;
+uniform mat4 matrix;
+out vec2 at;
+void main() {
+  at = uv;
+  gl_Position = matrix * vec4(position, 1);
+})";
+
+constexpr const char* kPictureFragment = R"(#version 330 core
+in vec2 at;
+uniform sampler2D picture;
+uniform float opacity;
+out vec4 result;
+void main() { result = vec4(texture(picture, at).rgb, opacity); })";
+
+/// One triangle over everything.
+constexpr const char* kCopyVertex = R"(#version 330 core
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); })";
+
+constexpr const char* kCopyFragment = R"(#version 330 core
+uniform sampler2D picture;
+out vec4 result;
+void main() { result = vec4(texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb, 1); })";
+
+void attribute(unsigned index, int count, std::size_t stride, std::size_t offset) {
+  glEnableVertexAttribArray(index);
+  glVertexAttribPointer(index, count, GL_FLOAT, GL_FALSE, static_cast<int>(stride),
+                        reinterpret_cast<const void*>(offset));
+}
+
+struct LineCorner {
+  Point3 from, to;
+  std::array<float, 4> colour;
+  float end, side, width, dash;
+};
+
+struct PictureCorner {
+  Point3 position;
+  float u, v;
+};
+
+}  // namespace
+
+struct SceneDrawer::State {
+  unsigned surface = 0, line = 0, pictures = 0, copy = 0;  // programs
+  unsigned surfaceArray = 0, lineArray = 0, pictureArray = 0, nothing = 0;
+  unsigned surfaceBuffer = 0, lineBuffer = 0, pictureBuffer = 0;
+  unsigned plain = 0, texture = 0, depth = 0;  // drawn into, one sample a pixel
+  unsigned smooth = 0, mean = 0;               // the mean of several
+  int width = 0, height = 0;
+  std::array<float, 16> matrix{};
+  Vec3 eye, inside;
+  SeeThrough seeThrough;
+  std::optional<SpaceDrawing> shown;
+  std::size_t steps = 0;  // number of kPlaces that are in the mean
+  std::uint64_t drawn = 0;
+
+  void resize(int w, int h) {
+    if (w == width && h == height) return;
+    width = w;
+    height = h;
+    const auto make = [&](unsigned name, int format, unsigned content, unsigned type) {
+      glBindTexture(GL_TEXTURE_2D, name);
+      glTexImage2D(GL_TEXTURE_2D, 0, format, w, h, 0, content, type, nullptr);
+      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    };
+    make(texture, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
+    make(mean, GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT);
+    make(depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
+    glBindFramebuffer(GL_FRAMEBUFFER, plain);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, smooth);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, mean, 0);
+  }
+
+  void drawPlain(const SpaceDrawing& drawing);
+  void drawStep(const SpaceDrawing& drawing);
+  void begin(const SpaceDrawing& drawing, double x, double y);
+  void overlay(const SpaceDrawing& drawing);
+  void copyOver(unsigned frame, unsigned picture) const;
+  static void leave();
+  void surfaces(const std::vector<DrawSurface>& parts);
+  void picture(const DrawPicture& picture);
+  void lines(const std::vector<DrawLine>& lines, float hidden);
+
+  void use(unsigned program) const {
+    glUseProgram(program);
+    glUniformMatrix4fv(glGetUniformLocation(program, "matrix"), 1, GL_TRUE, matrix.data());
+  }
+};
+
+SceneDrawer::SceneDrawer() : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.surface = linkProgram(kSurfaceVertex, kSurfaceFragment.c_str());
+  s.line = linkProgram(kLineVertex, kLineFragment);
+  s.pictures = linkProgram(kPictureVertex, kPictureFragment);
+  s.copy = linkProgram(kCopyVertex, kCopyFragment);
+  for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray, &s.nothing})
+    glGenVertexArrays(1, array);
+  for (unsigned* buffer : {&s.surfaceBuffer, &s.lineBuffer, &s.pictureBuffer}) glGenBuffers(1, buffer);
+  for (unsigned* frame : {&s.smooth, &s.plain}) glGenFramebuffers(1, frame);
+  for (unsigned* picture : {&s.texture, &s.mean, &s.depth}) glGenTextures(1, picture);
+
+  glBindVertexArray(s.surfaceArray);
+  glBindBuffer(GL_ARRAY_BUFFER, s.surfaceBuffer);
+  attribute(0, 3, 6 * sizeof(float), 0);
+  attribute(1, 3, 6 * sizeof(float), 3 * sizeof(float));
+  glBindVertexArray(s.lineArray);
+  glBindBuffer(GL_ARRAY_BUFFER, s.lineBuffer);
+  attribute(0, 3, sizeof(LineCorner), offsetof(LineCorner, from));
+  attribute(1, 3, sizeof(LineCorner), offsetof(LineCorner, to));
+  attribute(2, 4, sizeof(LineCorner), offsetof(LineCorner, colour));
+  attribute(3, 4, sizeof(LineCorner), offsetof(LineCorner, end));
+  glBindVertexArray(s.pictureArray);
+  glBindBuffer(GL_ARRAY_BUFFER, s.pictureBuffer);
+  attribute(0, 3, sizeof(PictureCorner), 0);
+  attribute(1, 2, sizeof(PictureCorner), offsetof(PictureCorner, u));
+  glBindVertexArray(0);
+}
+
+SceneDrawer::~SceneDrawer() {
+  State& s = *state_;
+  for (unsigned program : {s.surface, s.line, s.pictures, s.copy}) glDeleteProgram(program);
+  for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray, &s.nothing})
+    glDeleteVertexArrays(1, array);
+  for (unsigned* buffer : {&s.surfaceBuffer, &s.lineBuffer, &s.pictureBuffer}) glDeleteBuffers(1, buffer);
+  for (unsigned* frame : {&s.smooth, &s.plain}) glDeleteFramebuffers(1, frame);
+  for (unsigned* picture : {&s.texture, &s.mean, &s.depth}) glDeleteTextures(1, picture);
+}
+
+void SceneDrawer::setCorners(const std::vector<float>& corners) {
+  glBindBuffer(GL_ARRAY_BUFFER, state_->surfaceBuffer);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(corners.size() * sizeof(float)), corners.data(),
+               GL_STATIC_DRAW);
+  state_->shown.reset();
+}
+
+std::uint64_t SceneDrawer::drawn() const { return state_->drawn; }
+
+bool SceneDrawer::coarse() const { return state_->shown && state_->steps < kPlaces.size(); }
+
+ImTextureID SceneDrawer::show(SpaceDrawing drawing, bool rests) {
+  State& s = *state_;
+  if (s.shown != drawing) {
+    s.drawPlain(drawing);
+    s.shown = std::move(drawing);
+    s.steps = 0;
+    ++s.drawn;
+  } else if (rests && coarse()) {
+    s.drawStep(*s.shown);
+  }
+  const bool between = s.steps > 0 && s.steps < kPlaces.size();
+  return reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(between ? s.mean : s.texture));
+}
+
+/// Draws solid surfaces, seen through that place of each pixel.
+void SceneDrawer::State::begin(const SpaceDrawing& d, double x, double y) {
+  resize(d.width, d.height);
+  const std::array<double, 2> aside{(2 * x - 1) / width, (2 * y - 1) / height};
+  for (std::size_t row = 0; row < 4; ++row)
+    for (std::size_t i = 0; i < 4; ++i)
+      matrix[4 * row + i] =
+          static_cast<float>(d.matrix[row][i] + (row < 2 ? aside[row] * d.matrix[3][i] : 0));
+  eye = d.eye;
+  inside = d.inside;
+  glBindFramebuffer(GL_FRAMEBUFFER, plain);
+  glViewport(0, 0, width, height);
+  glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glDepthMask(GL_TRUE);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glClearColor(d.background[0], d.background[1], d.background[2], 1);
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  glDisable(GL_BLEND);
+  surfaces(d.solid);
+  glEnable(GL_BLEND);
+  if (d.picture) picture(*d.picture);
+}
+
+/// Draws lines over surfaces.
+void SceneDrawer::State::overlay(const SpaceDrawing& d) {
+  glDepthMask(GL_FALSE);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
+  surfaces(d.wires);
+  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  lines(d.lines, d.hidden);
+  glDepthMask(GL_TRUE);
+}
+
+void SceneDrawer::State::drawPlain(const SpaceDrawing& d) {
+  begin(d, 0.5, 0.5);
+  seeThrough.end();
+  glDepthMask(GL_FALSE);
+  surfaces(d.clear);
+  overlay(d);
+  leave();
+}
+
+void SceneDrawer::State::drawStep(const SpaceDrawing& d) {
+  begin(d, kPlaces[steps][0], kPlaces[steps][1]);
+  if (!d.clear.empty()) {
+    seeThrough.begin(width, height, depth);
+    while (seeThrough.nextLayer()) surfaces(d.clear);
+    seeThrough.layOver(plain);
+  }
+  overlay(d);
+  ++steps;
+  glBlendColor(0, 0, 0, 1.0f / static_cast<float>(steps));
+  glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+  copyOver(smooth, texture);
+  if (steps == kPlaces.size()) {  // as bytes it is shown faster
+    glDisable(GL_BLEND);
+    copyOver(plain, mean);
+  }
+  leave();
+}
+
+void SceneDrawer::State::copyOver(unsigned frame, unsigned picture) const {
+  glBindFramebuffer(GL_FRAMEBUFFER, frame);
+  glDisable(GL_DEPTH_TEST);
+  glUseProgram(copy);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, picture);
+  glUniform1i(glGetUniformLocation(copy, "picture"), 0);
+  glBindVertexArray(nothing);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+/// As Dear ImGui expects it.
+void SceneDrawer::State::leave() {
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glBindVertexArray(0);
+  glUseProgram(0);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_DEPTH_TEST);
+}
+
+void SceneDrawer::State::surfaces(const std::vector<DrawSurface>& parts) {
+  if (parts.empty()) return;
+  use(surface);
+  seeThrough.useIn(surface);
+  const auto place = [&](const char* name, const Vec3& p) {
+    glUniform3f(glGetUniformLocation(surface, name), static_cast<float>(p.x), static_cast<float>(p.y),
+                static_cast<float>(p.z));
+  };
+  place("eye", eye);
+  place("inside", inside);
+  glBindVertexArray(surfaceArray);
+  const int colour = glGetUniformLocation(surface, "colour"), wall = glGetUniformLocation(surface, "wall");
+  for (const DrawSurface& part : parts) {
+    glUniform4f(colour, static_cast<float>(part.colour.r), static_cast<float>(part.colour.g),
+                static_cast<float>(part.colour.b), part.opacity);
+    glUniform1i(wall, part.wall);
+    glDrawArrays(GL_TRIANGLES, static_cast<int>(part.first), static_cast<int>(part.count));
+  }
+}
+
+void SceneDrawer::State::lines(const std::vector<DrawLine>& all, float hidden) {
+  if (all.empty()) return;
+  std::vector<LineCorner> corners;
+  corners.reserve(all.size() * 6);
+  for (const DrawLine& each : all) {
+    const auto corner = [&](float end, float side) {
+      return LineCorner{each.from, each.to, each.colour, end, side, each.width, each.dash};
+    };
+    const LineCorner a = corner(0, -1), b = corner(0, 1), c = corner(1, 1), d = corner(1, -1);
+    corners.insert(corners.end(), {a, b, c, a, c, d});
+  }
+  glBindVertexArray(lineArray);
+  glBindBuffer(GL_ARRAY_BUFFER, lineBuffer);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(corners.size() * sizeof(LineCorner)),
+               corners.data(), GL_STREAM_DRAW);
+  use(line);
+  glUniform2f(glGetUniformLocation(line, "size"), static_cast<float>(width), static_cast<float>(height));
+  const int opacity = glGetUniformLocation(line, "opacity");
+  if (hidden > 0) {
+    glDepthFunc(GL_GREATER);
+    glUniform1f(opacity, hidden);
+    glDrawArrays(GL_TRIANGLES, 0, static_cast<int>(corners.size()));
+  }
+  glDepthFunc(GL_LEQUAL);
+  glUniform1f(opacity, 1);
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<int>(corners.size()));
+  glDepthFunc(GL_LESS);
+}
+
+void SceneDrawer::State::picture(const DrawPicture& p) {
+  const PictureCorner a{p.corners[0], 0, 0}, b{p.corners[1], 1, 0}, c{p.corners[2], 1, 1},
+      d{p.corners[3], 0, 1};
+  const PictureCorner quad[] = {a, b, c, a, c, d};
+  glBindVertexArray(pictureArray);
+  glBindBuffer(GL_ARRAY_BUFFER, pictureBuffer);
+  glBufferData(GL_ARRAY_BUFFER, sizeof quad, quad, GL_STREAM_DRAW);
+  use(pictures);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, p.texture);
+  glUniform1i(glGetUniformLocation(pictures, "picture"), 0);
+  glUniform1f(glGetUniformLocation(pictures, "opacity"), p.opacity);
+  glDrawArrays(GL_TRIANGLES, 0, 6);
+}
+
+}  // namespace trace::studio

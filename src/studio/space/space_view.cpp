@@ -1,0 +1,418 @@
+// The upper part of the panel Rays: the scene in space with the rays of a pixel in it.
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "app/view/room.h"
+#include "scene/picture_size.h"
+#include "studio/space/rays_view.h"
+#include "studio/space/space_lines.h"
+#include "studio/studio.h"
+#include "studio/widgets/landmarks.h"
+
+namespace trace::studio {
+namespace {
+
+constexpr float kNear = 6;       // pixels from a ray that count as on it
+constexpr float kHidden = 0.6f;  // opacity of what lies behind surfaces
+
+/// Asks for the scene's triangles when they have changed, and takes those that have come. Those of another
+/// scene are gone at once.
+void updateModel(Studio& studio) {
+  RaysView& view = studio.rays;
+  const auto scene = studio.workspace.document.sharedScene();
+  if (view.modelOf != scene->file) {
+    view.modelOf = scene->file;
+    view.modelScene.reset();
+    view.model = {};
+    view.walls.clear();
+    view.wallsOf.reset();
+    view.built = false;
+  }
+  if (view.modelScene != scene) {
+    if (!view.modelScene || !sameModel(*view.modelScene, *scene))
+      view.modelTask.start([scene, modeler = view.modeler](const Cancelled& cancelled) {
+        try {
+          return RaysView::Modelled{scene->file, modeler->model(*scene, cancelled)};
+        } catch (const std::exception&) {  // the render says what is wrong
+          return RaysView::Modelled{scene->file, {}};
+        }
+      });
+    view.modelScene = scene;
+  }
+  if (auto made = view.modelTask.take(); made && made->file == view.modelOf) {
+    if (made->model.warnings != view.model.warnings) studio.workspace.report(made->model.warnings);
+    view.model = std::move(made->model);
+    view.drawer->setCorners(view.model.corners);
+    view.built = true;
+  }
+}
+
+/// Looks at what the scene's camera sees, once for each file; at all there is, until that is known.
+void updateOrbit(Studio& studio) {
+  RaysView& view = studio.rays;
+  const Scene& scene = studio.workspace.document.scene();
+  if (view.orbitFile == scene.file) return;
+  auto session = studio.workspace.render.session();
+  if (session && session->scene().file != scene.file) session.reset();
+  if (!session && view.orbitGuess == scene.file) return;
+  const Box3 all = frameOf(scene);
+  Box3 target = session ? seenBy(session->world(), all) : all;
+  if (target.empty()) target = all;
+  if (target.empty() || !isFinite(target.size())) target = {{-1, -1, -1}, {1, 1, 1}};
+  view.orbit = OrbitCamera(target, scene.camera);
+  view.size = std::max(length(target.size()) / 2, 1e-30);
+  (session ? view.orbitFile : view.orbitGuess) = scene.file;
+}
+
+void updateWalls(Studio& studio) {
+  RaysView& view = studio.rays;
+  const auto session = studio.workspace.render.session();
+  if (!session || session->scene().file != view.modelOf || view.wallsOf.lock() == session) return;
+  view.walls = wallsAround(session->world(), session->scene().camera.position, frameOf(session->scene()));
+  view.wallsOf = session;
+}
+
+/// Brings the rays of a pixel into sight once it is chosen.
+void frameRays(Studio& studio) {
+  RaysView& view = studio.rays;
+  const TracedPixel* pixel = shownPixel(studio);
+  const bool shown = pixel && pixel->x == view.clickedX && pixel->y == view.clickedY;
+  if (!view.frameDue || !shown || ImGui::IsMouseDown(0)) return;
+  view.frameDue = false;
+  Box3 box = boundsOf(pixel->segments);
+  if (view.fromCamera || box.empty()) return;
+  const Vec3 least = Vec3(1, 1, 1) * (0.2 * view.size);  // a single place is seen with its surroundings
+  const Vec3 room{std::max(0.0, least.x - box.size().x / 2), std::max(0.0, least.y - box.size().y / 2),
+                  std::max(0.0, least.z - box.size().z / 2)};
+  box = {box.low - room, box.high + room};
+  if (length(box.size()) < 8 * view.size) view.orbit.lookAt(box);
+}
+
+void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
+  constexpr float kWire = 0.5f;
+  if (view.surfaces == Surfaces::none) return;
+  for (const ScenePart& part : view.model.parts) {
+    const float own = static_cast<float>(part.opacity);
+    DrawSurface surface{part.first, part.count, part.color, std::min(view.opacity, own)};
+    surface.wall = view.roomOpened && std::binary_search(view.walls.begin(), view.walls.end(), part.object);
+    if (view.surfaces == Surfaces::wireframe) {
+      surface.opacity = kWire;
+      surface.wall = false;
+      drawing.wires.push_back(surface);
+    } else {
+      (surface.opacity < 1 ? drawing.clear : drawing.solid).push_back(surface);
+    }
+  }
+}
+
+// --- the cursor ---------------------------------------------------------------------------------------
+
+/// A ray's line on the screen.
+struct ScreenLine {
+  Vec2 from, to;
+};
+
+/// None if it lies behind the eye.
+std::optional<ScreenLine> onScreen(const RaysView& view, const Matrix4& matrix, ImVec2 low, ImVec2 size,
+                                   const RaySegment& line) {
+  const auto local = [&](const Vec3& p) { return (p - view.model.origin) / view.model.scale; };
+  std::array<double, 4> a = transform(matrix, local(line.from)), b = transform(matrix, local(line.to));
+  constexpr double kLeast = 1e-4;
+  if (a[3] < kLeast && b[3] < kLeast) return {};
+  const auto cut = [](std::array<double, 4>& out, const std::array<double, 4>& in) {
+    const double t = (kLeast - out[3]) / (in[3] - out[3]);
+    for (std::size_t i = 0; i < 4; ++i) out[i] += t * (in[i] - out[i]);
+  };
+  if (a[3] < kLeast) cut(a, b);
+  if (b[3] < kLeast) cut(b, a);
+  const auto screen = [&](const std::array<double, 4>& c) {
+    return Vec2{low.x + (c[0] / c[3] + 1) / 2 * size.x, low.y + (1 - c[1] / c[3]) / 2 * size.y};
+  };
+  return ScreenLine{screen(a), screen(b)};
+}
+
+/// Distance in pixels of the cursor from the ray's line on the screen.
+float distanceTo(const RaysView& view, const Matrix4& matrix, ImVec2 low, ImVec2 size,
+                 const RaySegment& line) {
+  const auto seen = onScreen(view, matrix, low, size, line);
+  if (!seen) return 1e30f;
+  const auto& [p, q] = *seen;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const double wx = q.x - p.x, wy = q.y - p.y, l = wx * wx + wy * wy;
+  const double t = l > 0 ? std::clamp(((mouse.x - p.x) * wx + (mouse.y - p.y) * wy) / l, 0.0, 1.0) : 0;
+  return static_cast<float>(std::hypot(p.x + t * wx - mouse.x, p.y + t * wy - mouse.y));
+}
+
+int rayUnderCursor(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size) {
+  const RaysView& view = studio.rays;
+  int nearest = -1;
+  float least = kNear * studio.theme.scale;
+  const TracedPixel* pixel = shownPixel(studio);
+  if (!pixel) return -1;
+  for (const RaySegment& segment : pixel->segments) {
+    const int i = segment.node;
+    if (view.lookHidden[static_cast<std::size_t>(segment.looks)] || !view.inStep(i)) continue;
+    const float d = distanceTo(view, matrix, low, size, segment);
+    if (d < least) {
+      least = d;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+/// The ray under the cursor, here or in the table, over the drawing, which is not drawn again for it.
+void drawHovered(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size, int ray) {
+  const TracedPixel* pixel = shownPixel(studio);
+  if (!pixel || ray < 0 || static_cast<std::size_t>(ray) >= pixel->segments.size()) return;
+  const RaySegment& segment = pixel->segments[static_cast<std::size_t>(ray)];
+  const auto seen = onScreen(studio.rays, matrix, low, size, segment);
+  if (!seen) return;
+  const Color c = lerp(0.5, colourOf(segment.looks, studio.theme.light), Color(studio.theme.light ? 0 : 1));
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect(low, {low.x + size.x, low.y + size.y}, true);
+  const auto point = [](const Vec2& p) { return ImVec2(static_cast<float>(p.x), static_cast<float>(p.y)); };
+  list.AddLine(point(seen->from), point(seen->to),
+               ImGui::GetColorU32(
+                   ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1)),
+               4 * studio.theme.scale);
+  list.PopClipRect();
+}
+
+/// How far away is what the middle of the camera's picture shows?
+Real distanceAhead(const Studio& studio, const CameraFrame& camera) {
+  const auto session = studio.workspace.render.session();
+  Statistics statistics;
+  const auto found =
+      session ? session->world().closest(camera.ray({0.5, 0.5}), Faces::both, statistics) : std::nullopt;
+  const Real distance = found ? found->t : length(studio.rays.orbit.target() - camera.eye);
+  return std::clamp(distance, 0.01 * studio.rays.size, 100 * studio.rays.size);
+}
+
+/// The effect of the mouse on the view; it begins where the view from the camera is.
+void moveCamera(Studio& studio, const CameraFrame& camera, ImVec2 size) {
+  RaysView& view = studio.rays;
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool shift = io.KeyShift;
+  const bool drags = ImGui::IsItemActive() && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) &&
+                     (ImGui::IsMouseDragging(0) || ImGui::IsMouseDragging(1) || ImGui::IsMouseDragging(2));
+  const bool zooms = ImGui::IsItemHovered() && io.MouseWheel != 0;
+  if (view.fromCamera && (drags || zooms)) {
+    const Vec3& updir = studio.workspace.document.scene().camera.updir;
+    view.orbit = OrbitCamera::from(camera, updir, distanceAhead(studio, camera));
+    view.fromCamera = false;
+  }
+  if (drags) {
+    const double dx = io.MouseDelta.x / size.y, dy = io.MouseDelta.y / size.y;
+    if (ImGui::IsMouseDragging(0) && !shift) view.orbit.turn(-4 * dx, 4 * dy);
+    if (ImGui::IsMouseDragging(1) || ImGui::IsMouseDragging(2) || (ImGui::IsMouseDragging(0) && shift))
+      view.orbit.move(-dx, dy);
+  }
+  if (zooms) view.orbit.approach(std::pow(0.85, io.MouseWheel));
+}
+
+void selectObjectUnderCursor(Studio& studio, const CameraFrame& frame, ImVec2 low, ImVec2 size) {
+  const auto session = studio.workspace.render.session();
+  if (!session) return;
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const RaysView& view = studio.rays;
+  const auto found = closestShown(
+      session->world(), frame.ray({(mouse.x - low.x) / size.x, 1 - (mouse.y - low.y) / size.y}),
+      view.roomOpened ? view.walls : std::vector<std::uint32_t>{}, session->scene().camera.position);
+  if (found && found->object < studio.workspace.document.scene().objects.size())
+    studio.select(Studio::Selected::object, found->object);
+}
+
+// --- switches -----------------------------------------------------------------------------------------
+
+void drawSwitches(Studio& studio) {
+  RaysView& view = studio.rays;
+  const char* const kSurfaces[] = {"Shaded", "Wireframe", "No surfaces"};
+  int surfaces = static_cast<int>(view.surfaces);
+  ImGui::SetNextItemWidth(characters(18));
+  if (ImGui::Combo("##surfaces", &surfaces, kSurfaces, 3)) view.surfaces = static_cast<Surfaces>(surfaces);
+  ImGui::SameLine();
+  if (ImGui::Button("Show...")) ImGui::OpenPopup("show");
+  const auto beside = [](const char* label, float more) {  // or on the next line
+    ImGui::SameLine();
+    const float wide = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x + more;
+    if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
+  };
+  beside("from camera", ImGui::GetFrameHeight());
+  ImGui::Checkbox("from camera", &view.fromCamera);
+  landmark("from camera");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("look as the scene's camera does; turning leaves it");
+  beside("Reset", 0);
+  if (ImGui::Button("Reset")) {
+    view.orbitFile.clear();
+    view.orbitGuess.clear();
+    view.modelScene.reset();
+    view.fromCamera = false;
+  }
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("look at everything again");
+  if (!ImGui::BeginPopup("show")) return;
+  ImGui::Checkbox("lights", &view.lightsShown);
+  ImGui::Checkbox("camera", &view.cameraShown);
+  ImGui::Checkbox("picture on its plane", &view.pictureShown);
+  ImGui::Checkbox("axes: x red, y green, z blue", &view.axesShown);
+  ImGui::Checkbox("bounding boxes", &view.boundsShown);
+  ImGui::Checkbox("normals of surfaces", &view.normalsShown);
+  ImGui::Checkbox("into closed rooms, from outside", &view.roomOpened);
+  ImGui::Checkbox("normals at hits", &view.hitNormalsShown);
+  ImGui::Checkbox("pinned rays", &view.pinnedShown);
+  ImGui::Checkbox("a click brings its rays into sight", &view.raysFramed);
+  ImGui::Checkbox("hierarchy boxes of the selected ray", &view.hierarchyShown);
+  ImGui::SetNextItemWidth(characters(20));
+  ImGui::SliderFloat("opacity", &view.opacity, 0.1f, 1, "%.2f");
+  ImGui::EndPopup();
+}
+
+/// The classes that occur, each a switch, over the lower left corner; without names where they do not fit.
+void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
+  RaysView& view = studio.rays;
+  const TracedPixel* pixel = shownPixel(studio);
+  if (!pixel) return;
+  std::array<int, kRayLooks.size()> count{};
+  for (const RaySegment& segment : pixel->segments) ++count[static_cast<std::size_t>(segment.looks)];
+  const auto classes = std::count_if(count.begin(), count.end(), [](int n) { return n > 0; });
+  const float line = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y * 0.5f;
+  const float pad = ImGui::GetStyle().FramePadding.x;
+  const float fit = std::floor((size.y - 2 * pad) / line);
+  if (classes == 0 || fit < 1) return;
+  const auto columns = std::ceil(static_cast<float>(classes) / fit);
+  const auto rows = std::ceil(static_cast<float>(classes) / columns);
+  const auto textOf = [&](std::size_t i) {
+    return (columns > 1 ? "" : std::string(kRayLooks[i].name) + "  ") + std::to_string(count[i]);
+  };
+  const float side = ImGui::GetTextLineHeight() * 0.7f;
+  float widest = 0;
+  for (std::size_t i = 0; i < count.size(); ++i)
+    if (count[i] > 0) widest = std::max(widest, ImGui::CalcTextSize(textOf(i).c_str()).x);
+  const float column = widest + side + 3 * pad;
+  const ImVec2 first{low.x + pad, low.y + size.y - rows * line - pad};
+  const ImVec4 plate = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
+  ImGui::GetWindowDrawList()->AddRectFilled({low.x + pad / 2, first.y - pad},
+                                            {first.x + columns * column + pad / 2, low.y + size.y - pad / 2},
+                                            ImGui::GetColorU32(ImVec4(plate.x, plate.y, plate.z, 0.8f)), pad);
+  ImVec2 at = first;
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    if (count[i] == 0) continue;
+    const std::string text = textOf(i);
+    const ImVec2 wide = ImGui::CalcTextSize(text.c_str());
+    const Color c = colourOf(static_cast<RayLooks>(i), studio.theme.light);
+    ImGui::SetCursorScreenPos(at);
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::InvisibleButton("class", {wide.x + side + 3 * pad, line}))
+      view.lookHidden[i] = !view.lookHidden[i];
+    ImGui::PopID();
+    landmark("legend " + std::string(kRayLooks[i].name));
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s: %s\nclick to show or hide", kRayLooks[i].name.data(), kRayLooks[i].help.data());
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const bool on = !view.lookHidden[i];
+    const ImU32 tint = ImGui::GetColorU32(
+        ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1));
+    const ImVec2 square{at.x + pad, at.y + (line - side) / 2};
+    if (on) list.AddRectFilled(square, {square.x + side, square.y + side}, tint, 2);
+    list.AddRect(square, {square.x + side, square.y + side}, tint, 2);
+    list.AddText({square.x + side + pad, at.y + (line - wide.y) / 2},
+                 ImGui::GetColorU32(on ? ImGuiCol_Text : ImGuiCol_TextDisabled), text.c_str());
+    at.y += line;
+    if (at.y > first.y + (rows - 0.5f) * line) at = {at.x + column, first.y};
+  }
+}
+
+}  // namespace
+
+void drawSpace(Studio& studio) {
+  RaysView& view = studio.rays;
+  if (!view.drawer) view.drawer = std::make_unique<SceneDrawer>();
+  if (!studio.stage) drawSwitches(studio);
+  updateModel(studio);
+  updateOrbit(studio);
+  frameRays(studio);
+  updateWalls(studio);
+  const ImVec2 low = ImGui::GetCursorScreenPos(), size = ImGui::GetContentRegionAvail();
+  if (size.x < 16 || size.y < 16) return;
+  ImGui::InvisibleButton("space", size,
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  landmark("space");
+  ImGui::SetItemAllowOverlap();  // the legend
+  const bool hovered = ImGui::IsItemHovered();
+  const bool clicked = hovered && ImGui::IsMouseReleased(0) && ImGui::GetMouseDragDelta(0).x == 0 &&
+                       ImGui::GetMouseDragDelta(0).y == 0;
+  const Document& document = studio.workspace.document;
+  if (!view.built) {
+    const char* text = "building ...";
+    const ImVec2 wide = ImGui::CalcTextSize(text);
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + size.x, low.y + size.y},
+                                              ImGui::GetColorU32(ImGuiCol_MenuBarBg));
+    ImGui::GetWindowDrawList()->AddText({low.x + (size.x - wide.x) / 2, low.y + (size.y - wide.y) / 2},
+                                        ImGui::GetColorU32(ImGuiCol_TextDisabled), text);
+    return;
+  }
+  const Real aspect = size.x / size.y;
+  const CameraFrame camera =
+      frame(cameraFor(document.scene(), document.settings()), document.settings().cameraAxes);
+  moveCamera(studio, fitted(camera, aspect), size);
+  const CameraFrame world = view.fromCamera ? fitted(camera, aspect) : view.orbit.frame(aspect);
+  CameraFrame local = world;
+  local.eye = (world.eye - view.model.origin) / view.model.scale;
+  // The interesting part is as far away as the target; the camera's view may begin inside something.
+  const Real near = (view.fromCamera ? view.size : view.orbit.distance()) / view.model.scale;
+  const Matrix4 matrix = projection(local, near * 0.01, near * 100 + 4);
+
+  const ImGuiIO& io = ImGui::GetIO();
+  const auto pixels = [](float length, float scale) { return std::max(1, static_cast<int>(length * scale)); };
+  const ImVec4 background = ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg);
+  SpaceDrawing drawing{.width = pixels(size.x, io.DisplayFramebufferScale.x),
+                       .height = pixels(size.y, io.DisplayFramebufferScale.y),
+                       .background = {background.x, background.y, background.z, 1},
+                       .matrix = matrix,
+                       .eye = local.eye,
+                       .inside = (camera.eye - view.model.origin) / view.model.scale,
+                       .hidden = kHidden};
+  addSurfaces(view, drawing);
+  const Frustum frustum = frustumOf(camera, 0.5 * view.size / length(camera.look));
+  const Texture& picture = studio.picture.pictureTexture;
+  if (view.cameraShown && view.pictureShown && !view.fromCamera && !picture.empty()) {
+    // While it is rendered it is new many times a second.
+    constexpr double kLeastInterval = 1;  // seconds
+    if (const double now = ImGui::GetTime();
+        !studio.workspace.render.state().working() ||
+        (now - view.pictureSince > kLeastInterval && !view.drawer->coarse())) {
+      view.pictureVersion = picture.version();
+      view.pictureSince = now;
+    }
+    drawing.picture = DrawPicture{{}, picture.name(), view.pictureVersion, 0.7f};
+    for (std::size_t i = 0; i < 4; ++i) drawing.picture->corners[i] = view.model.local(frustum.corners[i]);
+  }
+  drawing.lines = spaceLines(studio, frustum, world.eye);
+  const bool held = ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
+  const bool rests = !held && studio.window.rested() > RaysView::kRest;
+  ImGui::GetWindowDrawList()->AddImage(view.drawer->show(std::move(drawing), rests), low,
+                                       {low.x + size.x, low.y + size.y}, {0, 1}, {1, 0});
+  view.coarse = !held && view.drawer->coarse();
+
+  if (hovered && !ImGui::IsMouseDown(0)) {
+    const int under = rayUnderCursor(studio, matrix, low, size);
+    if (under >= 0) {
+      const TracedPixel& pixel = *shownPixel(studio);
+      view.hovered = under;
+      if (under != view.hoveredBefore) view.scrollTo = under;
+      ImGui::SetTooltip("%s: %s", look(pixel.looks(under)).name.data(),
+                        sentence(pixel.tree().nodes[static_cast<std::size_t>(under)], pixel.scene()).c_str());
+      if (clicked) view.selected = under;
+    }
+    if (clicked && under < 0) selectObjectUnderCursor(studio, world, low, size);
+  }
+  drawHovered(studio, matrix, low, size, view.hovered >= 0 ? view.hovered : view.hoveredBefore);
+  drawLegend(studio, low, size);
+}
+
+}  // namespace trace::studio
