@@ -17,34 +17,11 @@
 #include "image/codecs/exr_chunks.h"
 #include "image/codecs/exr_file.h"
 #include "image/codecs/exr_layers.h"
-
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wdeprecated-copy"
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#endif
-#include <ImfChannelList.h>
-#include <ImfChromaticities.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfIO.h>
-#include <ImfInputFile.h>
-#include <ImfInputPart.h>
-#include <ImfMultiPartInputFile.h>
-#include <ImfPartType.h>
-#include <ImfRgbaYca.h>
-#include <ImfStandardAttributes.h>
-#include <ImfStringAttribute.h>
-#include <ImfTileDescription.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
+#include "image/codecs/openexr.h"
 
 namespace trace {
 namespace {
 
-constexpr int kNoThreads = 0;
 constexpr std::string_view kPrefix = kExrWordPrefix;
 
 class MemoryInput : public Imf::IStream {

@@ -8,27 +8,10 @@
 
 #include "base/budget.h"
 #include "image/codecs/codec_parts.h"
-
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wdeprecated-copy"
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#endif
-#include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfIO.h>
-#include <ImfOutputFile.h>
-#include <ImfStringAttribute.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
+#include "image/codecs/openexr.h"
 
 namespace trace {
 namespace {
-
-constexpr int kNoThreads = 0;
 
 class MemoryOutput : public Imf::OStream {
  public:
