@@ -27,6 +27,6 @@
 
 namespace trace {
 
-inline constexpr int kNoThreads = 0;  ///< of OpenEXR's own
+inline constexpr int kNoThreads = 0;  ///< OpenEXR starts none
 
 }  // namespace trace
