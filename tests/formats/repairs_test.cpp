@@ -52,6 +52,23 @@ TEST(Repairs, ObjLinesAsOthersWriteThem) {
   EXPECT_EQ(Read("a.obj", "V 0 0 0 # first\nV 1 0 0\nV 0 1 0\nF 1 2 3\n").triangles(), 1u);
   EXPECT_EQ(Read("a.obj", "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").triangles(), 1u)
       << "points that come later";
+  const Read later("a.obj",
+                   "f 1/1/1 2/2/1 3/3/1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n");
+  EXPECT_EQ(later.warnings, "");
+  const auto& mesh = *later.scene.objects.at(0).shape.as<Mesh>()->data;
+  EXPECT_EQ(mesh.uvs.size(), 3u) << "uv that come later";
+  EXPECT_EQ(mesh.normals.size(), 3u) << "normals that come later";
+}
+
+TEST(Repairs, TheFirstFaceOfAnObjIsNamedThatLacksAPoint) {
+  const Read read("a.obj", "f 1 2 9\n" + kSquare + "f 1 2 8\nf -1 -2 -9\nf 1 2 3\n");
+  EXPECT_TRUE(read.warns("1:7: the face uses point 9, but there are 4 points; it is left out (3 times"))
+      << read.warnings;
+  const Read smooth("a.obj", "s 1\nf 1 2 3\n" + kSquare + "s 2\nf 1 2 3\n");
+  EXPECT_TRUE(smooth.warns("1:1: smoothing groups")) << smooth.warnings;
+  const Read normals("a.obj", "f 1//1 2 3\n" + kSquare + "f 1//1 2 3\n");
+  EXPECT_TRUE(normals.warns("1:3: normals or uv that the file does not have are left out (2 times"))
+      << normals.warnings;
 }
 
 TEST(Repairs, AFaceOfAnObjCostsItself) {
