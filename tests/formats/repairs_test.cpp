@@ -110,6 +110,17 @@ TEST(Repairs, PlyElementsInAnyOrderAndFacesThatAreLost) {
             1u);
 }
 
+TEST(Repairs, PlyHeadersMayNameTheirProgramWithoutComment) {
+  const std::string rest =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const Read read("a.ply", "ply\nformat ascii 1.0\nCreated by hand\n" + rest);
+  EXPECT_EQ(read.triangles(), 1u) << read.error;
+  EXPECT_EQ(read.warnings, "3:1: a line of the header is no comment, and is ignored: \"Created\"\n");
+  const Read misspelt("a.ply", "ply\nformat ascii 1.0\nelemant edge 0\n" + rest);
+  EXPECT_EQ(misspelt.error.find("3:1: expected a line of a PLY header"), 0u) << misspelt.error;
+}
+
 TEST(Repairs, PlyFacesHaveColoursAndUvOfTheirOwn) {
   const Read colored("a.ply", ply(kVertex + "element face 2\n" + kFace +
                                       "property uchar red\nproperty uchar green\nproperty uchar blue\n",
