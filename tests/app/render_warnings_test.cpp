@@ -115,6 +115,14 @@ TEST(RenderWarnings, OptionsOfASceneAreToldWithItsOwnIntegratorOnly) {
   EXPECT_EQ(warnings(caustics + "}", {{"integrator", "path", {}}}), "");
 }
 
+TEST(RenderWarnings, WhatAQualityChoosesIsNotToldAsAnOption) {
+  EXPECT_EQ(warnings(kLit, {{"quality", "good", {}}, {"integrator", "whitted", {}}}), "");
+  EXPECT_NE(
+      warnings(kLit, {{"quality", "good", {}}, {"integrator", "whitted", {}}, {"firefly-limit", "3", {}}})
+          .find("--firefly-limit changes nothing"),
+      std::string::npos);
+}
+
 TEST(RenderWarnings, AreToldWithTheirReason) {
   const auto about = [](const std::string& text, const std::vector<Choice>& choices, const char* expected) {
     const std::string found = warnings(text, choices);

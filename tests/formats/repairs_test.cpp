@@ -179,6 +179,17 @@ TEST(Repairs, ABrokenFacetOfStlCostsNoOther) {
   }
 }
 
+TEST(Repairs, FlawsOfStlHaveALine) {
+  const auto facet = [](const std::string& last) {
+    return "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex " + last +
+           "\nendloop\nendfacet\n";
+  };
+  const Read flat("a.stl", "solid\n" + facet("0 1 0") + facet("2 0 0") + "endsolid\n");
+  EXPECT_EQ(flat.warnings, "9:1: triangles without area are left out: 1\n");
+  const Read turned("a.stl", "solid\n" + facet("0 1 0") + facet("0 -1 0") + "endsolid\n");
+  EXPECT_EQ(turned.warnings.find("9:1: facets whose corners"), 0u) << turned.warnings;
+}
+
 TEST(Repairs, StlOfAnySpellingIsTurnedAsItsNormalsSay) {
   const std::string facet =
       "facet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";

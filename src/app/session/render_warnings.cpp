@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <set>
+#include <span>
 #include <string>
 #include <type_traits>
 
@@ -18,6 +19,7 @@
 #include "scene/groups.h"
 #include "scene/integrators.h"
 #include "scene/options.h"
+#include "scene/quality.h"
 
 namespace trace {
 namespace {
@@ -131,7 +133,11 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
   for (const Option& option : options()) {
     const bool ofScene = std::any_of(scene.choices.begin(), scene.choices.end(),
                                      [&](const Choice& choice) { return choice.option == option.name; });
-    const bool told = ofScene ? option.extra && integrator == meant : true;
+    const std::span<const Choice> chosen = choicesOf(s.quality);
+    const bool ofQuality = std::any_of(chosen.begin(), chosen.end(), [&](const Choice& choice) {
+      return choice.option == option.name && choice.value == option.get(s);
+    });
+    const bool told = !ofQuality && (ofScene ? option.extra && integrator == meant : true);
     if (told && !option.concerns(s) && option.get(s) != option.get({}))
       warn("--" + std::string(option.name) + " changes nothing: it concerns " +
            namesOfIntegrators(option.integrators) + ", and --integrator is " + integrator);

@@ -63,19 +63,24 @@ class Solid {
   /// Where the first of those stands.
   std::size_t firstTurned() const { return firstTurned_; }
 
-  void finish(std::string name, const Place& place, Model& model, MeshRepairs& repairs) {
+  /// `placeOf` gives the place of a byte.
+  template <class PlaceOf>
+  void finish(std::string name, const Place& place, const PlaceOf& placeOf, Model& model,
+              MeshRepairs& repairs) {
     MeshData mesh;
+    std::optional<std::size_t> firstToRepair;
     mesh.points = points_.keys();
     for (std::size_t i = 0; i + 2 < corners_.size(); i += 3) {
       mesh.triangles.push_back({corners_[i], corners_[i + 1], corners_[i + 2]});
       const Vec3 normal(normals_[i / 3]);
       const Vec3 face = faceNormal(mesh, static_cast<std::uint32_t>(i / 3));
+      if (!(length(face) > 0) && !firstToRepair) firstToRepair = places_[i / 3];
       const Real cosine = dot(normal, face);
       if (!(cosine < -0.5 * length(normal) * length(face))) continue;
       std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
       if (turned_++ == 0) firstTurned_ = places_[i / 3];
     }
-    repairs.check(mesh, place);
+    repairs.check(mesh, firstToRepair ? placeOf(*firstToRepair) : place);
     model.objects.push_back({std::move(name),
                              Mesh{std::make_shared<const MeshData>(std::move(mesh))},
                              {},
@@ -123,7 +128,8 @@ Model readBinary(const Place& place, std::string_view bytes, MeshRepairs& repair
   if (bytes.substr(0, kHeader).find("COLOR=") != bytes.npos)
     messages.warn(place, "the colour of the header, COLOR=, is not shown");
   Model model;
-  solid.finish("", place, model, repairs);
+  solid.finish(
+      "", place, [&](std::size_t) { return place; }, model, repairs);
   warnOfTurned(solid.turned(), place, messages);
   return model;
 }
@@ -170,7 +176,8 @@ class TextReader {
       }
     }
     words_.line();  // the name again
-    solid.finish(std::move(name), place_, model_, repairs_);
+    solid.finish(
+        std::move(name), place_, [&](std::size_t at) { return words_.placeAt(at); }, model_, repairs_);
     if (turned_ == 0) firstTurned_ = solid.firstTurned();
     turned_ += solid.turned();
   }
