@@ -281,8 +281,7 @@ class ClassGrader {
           difference(*reference.picture,
                      task_.grade.renderScenes ? renderedScene(file, task_.grade, inputs) : loadPicture(file),
                      task_.grade.difference);
-      judge(pair, d, task_.grade.limits);
-      addSceneCause(pair, d, task_.grade, inputs);
+      judge(pair, d, task_.grade, inputs);
       if (task_.grade.keepsPictures && !passes(pair.verdict)) addThumbnails(pair, d);
       const std::lock_guard lock(mutex_);
       results_.add(key, pair);
@@ -316,8 +315,7 @@ class ClassGrader {
       const PictureDifference d =
           difference(*reference.picture, programPicture(task_.run, student.folder, scene, suffix, cpu),
                      task_.grade.difference);
-      judge(pair, d, task_.grade.limits);
-      addSceneCause(pair, d, task_.grade, inputs);
+      judge(pair, d, task_.grade, inputs);
       if (task_.grade.keepsPictures && !passes(pair.verdict)) addThumbnails(pair, d);
     });
     pair.cpu = cpu;
