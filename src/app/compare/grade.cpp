@@ -110,7 +110,8 @@ void addCause(GradedPair& pair, const Causes& causes, std::string_view unit) {
 /// In words that follow on the name of the pair.
 std::string problemOf(const Error& error) {
   constexpr std::string_view kWord = "error: ";
-  const std::string text = error.what();
+  std::string text = error.what();
+  text.erase(text.find_last_not_of('\n') + 1);
   if (text.starts_with(kWord)) return text.substr(kWord.size());
   return error.fault() == Fault::scene ? "cannot be read: " + text : text;
 }
