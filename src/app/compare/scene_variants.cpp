@@ -228,13 +228,7 @@ class Variants {
   }
 
   void withoutFeature(SceneFeature feature) {
-    const EnumSet<SceneFeature> only{feature};
-    const auto isIn = [&](const Material& material) {
-      return !(withoutFeatures(material, only) == material);
-    };
-    const auto isOf = [&](const LightSource& source) { return lightWithout(source.light, only).has_value(); };
-    if (std::any_of(scene_.materials.begin(), scene_.materials.end(), isIn) ||
-        std::any_of(scene_.lights.begin(), scene_.lights.end(), isOf))
+    if (hasFeature(scene_, feature))
       set(
           "with --without " + std::string(sceneFeatureNames()[static_cast<std::size_t>(feature)]),
           [feature](Settings& settings) { settings.switchedOff.add(feature); }, true);
