@@ -115,6 +115,7 @@ TEST_F(ClassGradeTest, EachStudentGetsCausesAndPointsWorstFirst) {
   EXPECT_EQ(pair("half").mistakes, std::vector<std::string>{"shift"});
   EXPECT_EQ(pair("exchanged").mistakes, std::vector<std::string>{"channels"});
   EXPECT_EQ(pair("other").verdict, Verdict::beyond);
+  EXPECT_EQ(pair("other").mistakes, std::vector<std::string>{"black"});
   EXPECT_EQ(pair("small").verdict, Verdict::sizesDiffer);
   EXPECT_EQ(pair("broken").verdict, Verdict::unreadable);
   EXPECT_EQ(pair("empty").verdict, Verdict::missing);

@@ -172,9 +172,6 @@ TEST_F(SceneCause, OtherValuesAreNamed) {
       {"index = 1.5", "index = 1.2", "with index 1.2 in glass"},
       {"transmissive = (0.9, 0.95, 0.9)", "transmissive = (0.3, 0.95, 0.9)",
        "with transmissive (0.3, 0.95, 0.9) in glass"},
-      {"color = (0.7, 0.66, 0.6)", "color = (0.35, 0.66, 0.6)", "with color (0.35, 0.66, 0.6) in key"},
-      {"reflective = (0.8, 0.8, 0.8)", "reflective = (0.1, 0.1, 0.1)",
-       "with reflective (0.1, 0.1, 0.1) in mirror"},
   };
   for (const auto& [from, to, cause] : cases) {
     SCOPED_TRACE(from + " -> " + to);

@@ -31,7 +31,8 @@ void reconcile(Causes& causes) {
   const DifferenceCause& picture = *causes.picture;
   if (scene.test && scene.test->text().empty()) return;  // the reference is not what the scene gives
   const std::optional<SceneMatch>& found = scene.test ? scene.test : scene.nearest;
-  const bool isSceneBetter = found && (scene.test || picture.isNearest) &&
+  const bool isSameKind = scene.test && scene.test->variants.empty() && !picture.isNearest;
+  const bool isSceneBetter = found && !isSameKind && (scene.test || picture.isNearest) &&
                              shareLeft(found->rmse, scene.rmse) <= shareLeft(picture.rmse, picture.before);
   if (isSceneBetter) return causes.picture.reset();
   if (picture.isNearest) return scene.nearest.reset();

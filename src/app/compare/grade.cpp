@@ -84,6 +84,14 @@ std::vector<std::string> mistakesOf(const PictureChange& change) {
   return names;
 }
 
+/// Names for what is plain to see.
+std::vector<std::string> plainMistakes(const Causes& causes) {
+  if (causes.testColor) return {isBlack(*causes.testColor) ? "black" : "one colour"};
+  if (causes.isNegative) return {"negative"};
+  if (causes.isGrey) return {"grey"};
+  return {};
+}
+
 /// The one sentence that says most, and the mistakes of a cause that explains the picture.
 void addCause(GradedPair& pair, const Causes& causes, std::string_view unit) {
   const std::string reference = "the reference", test = "the picture";
@@ -94,17 +102,19 @@ void addCause(GradedPair& pair, const Causes& causes, std::string_view unit) {
   } else if (causes.scene) {
     const SceneCauses& scene = *causes.scene;
     const std::vector<std::string> sentences = sceneSentences(scene, reference, test);
-    const bool isNamed = scene.test && !scene.test->variants.empty();
+    const bool isNamed = scene.test && !scene.test->text().empty();
+    if (isNamed) {
+      pair.mistakes = scene.test->variants;
+      for (std::string& mistake : mistakesOf(scene.test->change)) pair.mistakes.push_back(std::move(mistake));
+    }
     if (isNamed || scene.nearest)
       pair.cause = sentences.front();
-    else if (scene.pixel)
-      pair.cause = notes.empty() ? sentences.back() : notes.back();
-    if (!isNamed) return;
-    pair.mistakes = scene.test->variants;
-    for (std::string& mistake : mistakesOf(scene.test->change)) pair.mistakes.push_back(std::move(mistake));
-  } else if (!notes.empty()) {
-    pair.cause = notes.back();
+    else if (scene.pixel && notes.empty())
+      pair.cause = sentences.back();
   }
+  if (!pair.cause.empty() || notes.empty()) return;
+  pair.cause = notes.back();
+  pair.mistakes = plainMistakes(causes);
 }
 
 /// In words that follow on the name of the pair.

@@ -36,7 +36,7 @@ struct GradedPair {
   Verdict verdict = Verdict::missing;
   std::string problem;  ///< why it could not be compared; may be several lines
   std::string cause;    ///< one sentence, if one change of the whole picture explains a failure
-  std::vector<std::string> mistakes{};  ///< the parts of that cause: "flipped", "gamma" (mistakeNames())
+  std::vector<std::string> mistakes{};  ///< the parts of that cause: "flipped", "gamma", "black"
   std::string unit;                     ///< "levels" or "values"
   int width = 0, height = 0;
   std::vector<double> values;    ///< values of metrics(), in their order; empty if it could not be compared
