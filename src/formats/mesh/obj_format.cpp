@@ -312,8 +312,9 @@ class ObjReader {
       if (!point)
         return lose(words[i],
                     "the face uses point " +
-                        std::string(words[i].substr(0, std::min(words[i].find('/'), 40ul))) + ", but there " +
-                        (points_.size() == 1 ? "is " : "are ") + counted(points_.size(), "point"),
+                        std::string(words[i].substr(0, std::min<std::size_t>(words[i].find('/'), 40))) +
+                        ", but there " + (points_.size() == 1 ? "is " : "are ") +
+                        counted(points_.size(), "point"),
                     "it is left out", "points are counted from 1, or backwards from -1", "point");
       const Vec3f& p = points_[static_cast<std::size_t>(*point)];
       if (!isFinite(Vec3(p))) return;  // the line of the point has its warning
