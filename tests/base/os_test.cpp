@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <thread>
 
+#include "base/files/file.h"
 #include "base/os/interrupts.h"
 #include "base/os/memory.h"
 #include "base/os/process.h"
 #include "base/os/temporary_name.h"
+#include "support/folder.h"
 
 namespace trace::os_test {
 namespace {
@@ -47,6 +49,20 @@ TEST(OperatingSystem, BellsKeepMessagesInTheirOrder) {
   EXPECT_EQ(bell.wait(60000), 'c');
   other.join();
   EXPECT_EQ(bell.wait(1), 0);
+}
+
+TEST(OperatingSystem, NamesOfFilesAreUtf8) {
+  const test::Folder folder;
+  for (const char* name : {"Gl\u00fcck", "\u65e5\u672c", "\U0001f600 face", "plain"}) {
+    const std::string path = folder / name;
+    writeFile(path, name);
+    EXPECT_TRUE(std::filesystem::exists(path)) << path;
+    EXPECT_EQ(std::filesystem::path(path).filename().generic_string(), name);
+    const std::filesystem::directory_iterator first(folder.path());
+    EXPECT_EQ(first->path().filename().generic_string(), name);
+    EXPECT_EQ(readFile(path), name);
+    std::filesystem::remove(path);
+  }
 }
 
 TEST(OperatingSystem, TemporaryNamesAreKnownAgain) {

@@ -116,6 +116,7 @@ TEST_F(ReadScopeTest, NamesAsOtherProgramsWriteThem) {
 }
 
 TEST_F(ReadScopeTest, LettersOfAnotherCaseAreRemarked) {
+  if (fs::exists(folder_ / "home/a.PNG")) GTEST_SKIP() << "names of files ignore the case of letters here";
   const ReadScope scope = ReadScope::ofScene(scene_);
   for (const char* name : {"A.PNG", "In/B.png", "IN\\b.PNG", "Textures/A.png"}) {
     const NamedFile found = namedFile(scene_, name);
@@ -125,6 +126,7 @@ TEST_F(ReadScopeTest, LettersOfAnotherCaseAreRemarked) {
 }
 
 TEST_F(ReadScopeTest, TheExactNameIsBetterThanOneOfAnotherCase) {
+  if (fs::exists(folder_ / "home/a.PNG")) GTEST_SKIP() << "names of files ignore the case of letters here";
   writeFile(folder_ / "home/A.png", "other");
   EXPECT_EQ(readFile(namedFile(scene_, "A.png").path), "other");
   EXPECT_EQ(readFile(namedFile(scene_, "a.png").path), "home/a.png");

@@ -1,5 +1,8 @@
 #include "base/os/windows/api.h"
 
+#include <cerrno>
+#include <cstdint>
+#include <cwchar>
 #include <system_error>
 
 namespace trace::os {
@@ -40,3 +43,43 @@ std::string reasonOf(DWORD error) {
 }
 
 }  // namespace trace::os
+
+/// The program uses this for mbrtowc of the C library (CMakeLists.txt), so that it reads UTF-8:
+/// std::filesystem::path(std::string) goes by it, and the C library of Windows that mingw-w64 uses has no
+/// locale of UTF-8. A character beyond 16 bits becomes two units: the first three of its four bytes give the
+/// one, the last byte gives the other, whose upper bits are kept in `state`.
+extern "C" std::size_t __wrap_mbrtowc(wchar_t* to, const char* from, std::size_t count,
+                                      std::mbstate_t* state) {
+  constexpr auto kWrong = static_cast<std::size_t>(-1), kMore = static_cast<std::size_t>(-2);
+  constexpr unsigned kHalf = 16;  // in the state: the second unit is yet to come
+  static thread_local std::mbstate_t ownState{};
+  if (!state) state = &ownState;
+  if (!from || count == 0) return from ? kMore : 0;
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned>(static_cast<unsigned char>(from[i])); };
+  const auto give = [&](unsigned unit, std::size_t bytes) {
+    if (to) *to = static_cast<wchar_t>(unit);
+    return unit == 0 ? 0 : bytes;
+  };
+  const auto wrong = [&] {
+    errno = EILSEQ;
+    *state = 0;
+    return kWrong;
+  };
+  if (const auto held = static_cast<unsigned>(*state); held & kHalf) {
+    *state = 0;
+    return (byte(0) & 0xc0) == 0x80 ? give(0xdc00 | (held & 15) << 6 | (byte(0) & 63), 1) : wrong();
+  }
+  if (byte(0) < 0x80) return give(byte(0), 1);
+  if (byte(0) < 0xc2 || byte(0) > 0xf4) return wrong();
+  const std::size_t length = byte(0) < 0xe0 ? 2 : 3;  // of four bytes, three for now
+  if (count < length) return kMore;
+  unsigned bits = byte(0) & (byte(0) < 0xe0 ? 0x1f : byte(0) < 0xf0 ? 0x0f : 0x07);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0) != 0x80) return wrong();
+    bits = bits << 6 | (byte(i) & 63);
+  }
+  if (byte(0) < 0xf0) return give(bits, length);
+  if (bits < 0x400 || bits >= 0x4400) return wrong();
+  *state = static_cast<std::mbstate_t>(kHalf | (bits & 15));
+  return give(0xd800 + ((bits - 0x400) >> 4), length);
+}
