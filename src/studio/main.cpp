@@ -9,7 +9,7 @@
 #include "app/session/version.h"
 #include "base/error.h"
 #include "base/files/read_scope.h"
-#include "base/files/streams.h"
+#include "base/os/process.h"
 #include "base/printable.h"
 #include "image/codecs/codec.h"
 #include "studio/actions.h"
@@ -111,7 +111,7 @@ int run(const Arguments& arguments) {
   Studio studio(window);
   std::error_code unknown;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  studio.start.folder = examplesFolder(program.string());
+  studio.start.folder = examplesFolder(program.generic_string());
   studio.configFolder = folder;
   ImGui::GetIO().IniFilename = folder.empty() ? nullptr : ini.c_str();
   if (!folder.empty()) restore(studio);
@@ -131,7 +131,7 @@ int run(const Arguments& arguments) {
     if (script && !script->step(studio)) break;
     const std::string& file = studio.workspace.document.file();
     const std::string now =
-        file.empty() ? "Trace" : std::filesystem::path(file).filename().string() + " - Trace";
+        file.empty() ? "Trace" : std::filesystem::path(file).filename().generic_string() + " - Trace";
     if (now != title) {
       window.setTitle(title = now);
       remember(studio);  // what was opened, should the window not come to its end
@@ -147,9 +147,9 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   using namespace trace;
-  guardStreams();
+  os::guardStreams();
   try {
-    const studio::Arguments arguments = studio::parse({argv + 1, argv + argc});
+    const studio::Arguments arguments = studio::parse(os::arguments(argc, argv));
     if (arguments.help) {
       std::fputs(studio::helpText().c_str(), stdout);
       return 0;
