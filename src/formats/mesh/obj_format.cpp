@@ -337,7 +337,7 @@ class ObjReader {
 
   void loseFace(std::string_view corner, std::size_t points) {
     lose(corner,
-         "the face uses point " + std::string(corner.substr(0, std::min(corner.find('/'), 40ul))) +
+         "the face uses point " + std::string(corner.substr(0, std::min<std::size_t>(corner.find('/'), 40))) +
              ", but there " + (points == 1 ? "is " : "are ") + counted(points, "point"),
          "it is left out", "points are counted from 1, or backwards from -1", "point");
   }
