@@ -14,7 +14,8 @@ case "$platform" in
     configure=(emcmake cmake)
     cc=emcc
     ar=emar
-    export NODE_PATH=/usr/share/nodejs  # where Debian keeps what Emscripten's node needs
+    export NODE_PATH=/usr/share/nodejs  # where Debian keeps what Emscripten needs
+    export EMSCRIPTEN=/usr/share/emscripten  # Draco asks for it
     ;;
   *) echo "cross_dependencies.sh: unknown platform: $platform" >&2; exit 2 ;;
 esac
@@ -77,7 +78,7 @@ library openexr -D OPENEXR_BUILD_TOOLS=OFF -D OPENEXR_INSTALL_EXAMPLES=OFF
 library libwebp -D WEBP_BUILD_ANIM_UTILS=OFF -D WEBP_BUILD_CWEBP=OFF -D WEBP_BUILD_DWEBP=OFF -D WEBP_BUILD_GIF2WEBP=OFF \
   -D WEBP_BUILD_IMG2WEBP=OFF -D WEBP_BUILD_VWEBP=OFF -D WEBP_BUILD_WEBPINFO=OFF -D WEBP_BUILD_WEBPMUX=OFF \
   -D WEBP_BUILD_EXTRAS=OFF
-library meshoptimizer
+flags="${flags/ -msimd128/}" library meshoptimizer  # its lanes are for a newer Emscripten
 library draco -D DRACO_JS_GLUE=OFF
 headers CLI nlohmann stb tiny_gltf.h tiny_obj_loader.h
 fetch imgui

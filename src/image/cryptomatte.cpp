@@ -1,10 +1,10 @@
 #include "image/cryptomatte.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdio>
 #include <set>
 
+#include "base/bits.h"
 #include "base/budget.h"
 
 namespace trace {
@@ -105,7 +105,7 @@ void addCryptomatte(ExrFile& file, const std::string& layer, std::span<const std
                                    static_cast<std::size_t>(x)];
         const bool isThere =
             rank < pixel.size() && pixel[rank].number >= 1 && pixel[rank].number <= own.size();
-        ids.push_back(isThere ? std::bit_cast<float>(cryptomatteId(own[pixel[rank].number - 1])) : 0.0f);
+        ids.push_back(isThere ? bitCast<float>(cryptomatteId(own[pixel[rank].number - 1])) : 0.0f);
         covers.push_back(isThere ? static_cast<float>(pixel[rank].share) : 0.0f);
       }
     }

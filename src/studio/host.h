@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 struct GLFWwindow;
 
@@ -21,6 +22,19 @@ std::string glfwReason();
 float contentScale(GLFWwindow* window);
 /// The character that a key writes on the user's keyboard; 0 if that is none or not known.
 char keyWrites(int key, int scancode);
+/// In a page, files are the page's own until the person saves them: a file that was written is offered for
+/// that.
+void handOver(const std::string& file);
+/// Asks for files of the person's computer, which takeOpened() then has. Nothing on the desktop, where all
+/// files are at hand.
+void askForFiles();
+std::vector<std::string> takeOpened();
+/// Copies an address that holds the scene in this file and names a pixel, "X,Y" or "". Nothing on the
+/// desktop.
+void copyLink(const std::string& scene, const std::string& pixel);
+/// Whether this is a page in a browser.
+bool isPage();
+
 /// The folder of the scenes that come with Trace; "" if it is not found.
 std::string examples();
 

@@ -1,6 +1,9 @@
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <emscripten.h>
 #include <emscripten/html5.h>
 
+#include <filesystem>
 #include <utility>
 
 #include "studio/host.h"
@@ -9,6 +12,7 @@ namespace trace::studio::host {
 namespace {
 
 std::function<bool()> step;  // which the page calls for each of its frames
+std::vector<std::string> opened;
 
 void frame() {
   if (step()) return;
@@ -17,6 +21,14 @@ void frame() {
 }
 
 }  // namespace
+
+extern "C" {
+// What the page tells the studio (web/page.js).
+EMSCRIPTEN_KEEPALIVE void traceOpened(const char* file) { opened.emplace_back(file); }
+EMSCRIPTEN_KEEPALIVE void traceResized(int width, int height) {
+  if (GLFWwindow* window = glfwGetCurrentContext()) glfwSetWindowSize(window, width, height);
+}
+}
 
 void eachFrame(std::function<bool()> each) {
   step = std::move(each);
@@ -27,6 +39,18 @@ bool waitForEvents(double) { return false; }
 std::string glfwReason() { return {}; }
 float contentScale(GLFWwindow*) { return static_cast<float>(emscripten_get_device_pixel_ratio()); }
 char keyWrites(int key, int) { return key >= ' ' && key < 127 ? static_cast<char>(key) : '\0'; }
+void handOver(const std::string& file) {
+  EM_ASM({ tracePage.save(UTF8ToString($0), UTF8ToString($1)); }, file.c_str(),
+         std::filesystem::path(file).filename().c_str());
+}
+void askForFiles() {
+  EM_ASM({ tracePage.askForFiles(); });
+}
+std::vector<std::string> takeOpened() { return std::exchange(opened, {}); }
+void copyLink(const std::string& scene, const std::string& pixel) {
+  EM_ASM({ tracePage.copyLink(UTF8ToString($0), UTF8ToString($1)); }, scene.c_str(), pixel.c_str());
+}
+bool isPage() { return true; }
 std::string examples() { return "/scenes"; }
 
 }  // namespace trace::studio::host

@@ -55,8 +55,10 @@ bool update(Studio& studio, double longest) {
                                                   : isBusy(studio) || studio.rays.coarse ? kBusy
                                                                                          : kIdle));
   for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
+  for (const std::string& file : host::takeOpened()) openDropped(studio, file);
   const std::uint64_t failures = workspace.failures(), refusals = workspace.refusals();
   workspace.update();
+  for (const std::string& file : workspace.takeWritten()) host::handOver(file);
   if (workspace.failures() > failures) {
     studio.show("Log");
     studio.quit = false;
@@ -125,6 +127,7 @@ class Program {
     sizeWindow(studio_, arguments);
     studio_.workspace.commandLine = arguments.choices;
     if (!arguments.scene.empty()) studio_.workspace.open(arguments.scene);
+    pixel_ = arguments.pixel;
     if (!arguments.reference.empty()) studio_.workspace.openReference(arguments.reference);
   }
 
@@ -138,6 +141,7 @@ class Program {
     if (studio_.quit && !studio_.workspace.saving()) return false;
     const bool scripted = script_ && !script_->waits();
     if (update(studio_, scripted ? 0 : script_ ? kBusy : kIdle) || scripted) frame(studio_);
+    clickPixel();
     if (window_.closing()) {
       window_.keepOpen();
       studio_.leave([this] { studio_.quit = true; });
@@ -148,6 +152,18 @@ class Program {
   }
 
  private:
+  /// As soon as there is a picture that has it.
+  void clickPixel() {
+    const auto& shown = studio_.picture.shown;
+    if (!pixel_ || shown.width == 0) return;
+    const auto [x, y] = *std::exchange(pixel_, {});
+    if (x < shown.width && y < shown.height)
+      studio_.picture.goTo(x, y);
+    else
+      studio_.workspace.note("--pixel: the picture has " + std::to_string(shown.width) + " x " +
+                             std::to_string(shown.height) + " pixels");
+  }
+
   void nameWindow() {
     const std::string& file = studio_.workspace.document.file();
     const std::string now =
@@ -164,6 +180,7 @@ class Program {
   Window window_;
   Studio studio_;
   std::string title_;
+  std::optional<std::array<int, 2>> pixel_;  // that is still to be clicked
 };
 
 int run(const Arguments& arguments) {
