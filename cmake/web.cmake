@@ -4,6 +4,7 @@ add_library(imgui STATIC ${imgui}/imgui.cpp ${imgui}/imgui_draw.cpp ${imgui}/img
   ${imgui}/misc/cpp/imgui_stdlib.cpp ${imgui}/backends/imgui_impl_glfw.cpp ${imgui}/backends/imgui_impl_opengl3.cpp)
 target_include_directories(imgui SYSTEM PUBLIC ${imgui} ${imgui}/misc/cpp)
 target_compile_definitions(imgui PRIVATE IMGUI_IMPL_OPENGL_ES3)
+set_target_properties(imgui PROPERTIES UNITY_BUILD OFF)  # its back ends include different headers of OpenGL
 floor(studio LIGHT USES app PRIVATE imgui PRECOMPILE imgui.h studio/studio.h)
 add_executable(ray-studio src/studio/main.cpp)
 target_link_libraries(ray-studio PRIVATE trace_studio imgui)
@@ -12,7 +13,11 @@ set(font /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf)
 target_link_options(ray-studio PRIVATE -fexceptions -pthread -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2 -sUSE_GLFW=3
   "-sPTHREAD_POOL_SIZE=navigator.hardwareConcurrency+16" -sINITIAL_MEMORY=256MB -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=4GB
   -sTOTAL_STACK=4MB -sDEFAULT_PTHREAD_STACK_SIZE=2MB -sEXPORTED_RUNTIME_METHODS=ccall,FS -sFORCE_FILESYSTEM -sENVIRONMENT=web,worker
-  --preload-file ${PROJECT_SOURCE_DIR}/scenes@/scenes --preload-file ${font}@${font} -Wno-pthreads-mem-growth)
+  "SHELL:--preload-file ${PROJECT_SOURCE_DIR}/scenes@/scenes" "SHELL:--preload-file ${font}@${font}" -Wno-pthreads-mem-growth)
+# The program, for node: what the page computes, to be compared with the desktop's (tests/web).
+target_link_options(ray PRIVATE -fexceptions -pthread -sNODERAWFS -sPROXY_TO_PTHREAD -sEXIT_RUNTIME -sPTHREAD_POOL_SIZE=8
+  -sINITIAL_MEMORY=256MB -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=4GB -sTOTAL_STACK=4MB -sDEFAULT_PTHREAD_STACK_SIZE=2MB
+  -sENVIRONMENT=node,worker -Wno-pthreads-mem-growth)
 set(page ${PROJECT_BINARY_DIR}/page)
 add_custom_target(web ALL DEPENDS ray-studio
   COMMAND ${CMAKE_COMMAND} -E make_directory ${page}

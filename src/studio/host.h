@@ -32,6 +32,8 @@ std::vector<std::string> takeOpened();
 /// Copies an address that holds the scene in this file and names a pixel, "X,Y" or "". Nothing on the
 /// desktop.
 void copyLink(const std::string& scene, const std::string& pixel);
+/// A page may ask what the window shows, in words (script_state.h): so it is tested. Nothing on the desktop.
+void answerWith(std::function<std::string()> state);
 /// Whether this is a page in a browser.
 bool isPage();
 

@@ -45,6 +45,7 @@ void handOver(const std::string&) {}
 void askForFiles() {}
 std::vector<std::string> takeOpened() { return {}; }
 void copyLink(const std::string&, const std::string&) {}
+void answerWith(std::function<std::string()>) {}
 bool isPage() { return false; }
 
 std::string examples() {

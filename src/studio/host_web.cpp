@@ -13,6 +13,7 @@ namespace {
 
 std::function<bool()> step;  // which the page calls for each of its frames
 std::vector<std::string> opened;
+std::function<std::string()> answer;
 
 void frame() {
   if (step()) return;
@@ -25,6 +26,11 @@ void frame() {
 extern "C" {
 // What the page tells the studio (web/page.js).
 EMSCRIPTEN_KEEPALIVE void traceOpened(const char* file) { opened.emplace_back(file); }
+EMSCRIPTEN_KEEPALIVE const char* traceState() {
+  static std::string text;
+  text = answer ? answer() : "";
+  return text.c_str();
+}
 EMSCRIPTEN_KEEPALIVE void traceResized(int width, int height) {
   if (GLFWwindow* window = glfwGetCurrentContext()) glfwSetWindowSize(window, width, height);
 }
@@ -50,6 +56,7 @@ std::vector<std::string> takeOpened() { return std::exchange(opened, {}); }
 void copyLink(const std::string& scene, const std::string& pixel) {
   EM_ASM({ tracePage.copyLink(UTF8ToString($0), UTF8ToString($1)); }, scene.c_str(), pixel.c_str());
 }
+void answerWith(std::function<std::string()> state) { answer = std::move(state); }
 bool isPage() { return true; }
 std::string examples() { return "/scenes"; }
 

@@ -17,6 +17,7 @@
 #include "studio/arguments.h"
 #include "studio/host.h"
 #include "studio/script.h"
+#include "studio/script_state.h"
 #include "studio/studio.h"
 #include "studio/widgets/landmarks.h"
 
@@ -120,6 +121,10 @@ class Program {
         window_("Trace", kWidth, kHeight),
         studio_(window_) {
     if (script_) keepLandmarks();
+    host::answerWith([this] {
+      keepLandmarks();
+      return state(studio_);
+    });
     studio_.start.folder = host::examples();
     studio_.configFolder = folder_;
     ImGui::GetIO().IniFilename = folder_.empty() ? nullptr : ini_.c_str();

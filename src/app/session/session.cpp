@@ -83,7 +83,7 @@ PictureLimits pictureLimits(const Settings& settings) { return {.memory = allowe
 }  // namespace
 
 std::uint64_t machineMemory() {
-#if defined(_SC_PHYS_PAGES)
+#if defined(_SC_PHYS_PAGES) && !defined(__EMSCRIPTEN__)
   std::uint64_t bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                         static_cast<std::uint64_t>(::sysconf(_SC_PAGE_SIZE));
   std::uint64_t limit = 0;
