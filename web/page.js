@@ -96,7 +96,7 @@ async function isolate() {
 }
 
 function fitCanvas() {
-  if (Module.ready) Module._traceResized(Math.round(innerWidth * devicePixelRatio), Math.round(innerHeight * devicePixelRatio));
+  if (Module.ready) Module.setCanvasSize(Math.round(innerWidth * devicePixelRatio), Math.round(innerHeight * devicePixelRatio));
 }
 
 var Module = {

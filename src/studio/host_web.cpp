@@ -1,5 +1,3 @@
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <emscripten.h>
 #include <emscripten/html5.h>
 
@@ -30,9 +28,6 @@ EMSCRIPTEN_KEEPALIVE const char* traceState() {
   static std::string text;
   text = answer ? answer() : "";
   return text.c_str();
-}
-EMSCRIPTEN_KEEPALIVE void traceResized(int width, int height) {
-  if (GLFWwindow* window = glfwGetCurrentContext()) glfwSetWindowSize(window, width, height);
 }
 }
 

@@ -24,7 +24,9 @@
 namespace trace::studio {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 800;   // width and height of the window, at first, on a plain monitor
+constexpr int kWidth = 1280, kHeight = 800;  // width and height of the window, at first, on a plain monitor
+constexpr int kSmall =
+    320;  // of a page, until it says how large it is: no screen is so small, else it would be filled
 constexpr float kStage = 1.6f;                // how much larger everything is on the stage
 constexpr double kSoon = 0.004;               // seconds until the next step of a view that is made smooth
 constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at what continues in the background
@@ -92,6 +94,7 @@ void frame(Studio& studio) {
 
 /// As asked, or as it was last; at first as suits the monitor.
 void sizeWindow(Studio& studio, const Arguments& arguments) {
+  if (host::isPage()) return;  // which has its size of its own accord
   const double width = studio.preferences.number("width", 0), height = studio.preferences.number("height", 0);
   const float scale = studio.window.contentScale();
   if (arguments.width > 0)
@@ -118,7 +121,7 @@ class Program {
                     ? nullptr
                     : std::make_unique<Script>(arguments.script, resolve({arguments.choices}).timeLimit)),
         folder_(script_ ? "" : configFolder(variable)),
-        window_("Trace", kWidth, kHeight),
+        window_("Trace", host::isPage() ? kSmall : kWidth, host::isPage() ? kSmall : kHeight),
         studio_(window_) {
     if (script_) keepLandmarks();
     host::answerWith([this] {

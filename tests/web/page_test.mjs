@@ -2,7 +2,7 @@
 // Usage: node page_test.mjs PAGE-FOLDER SHOTS-FOLDER; playwright-core is found from the working folder.
 import { spawn } from 'node:child_process';
 import { createRequire } from 'node:module';
-import { mkdtempSync, mkdirSync, readFileSync, statSync, readdirSync } from 'node:fs';
+import { mkdtempSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import { gzipSync } from 'node:zlib';
@@ -43,11 +43,18 @@ async function until(pattern, what, seconds = 60) {
   console.log(await stateText().catch((error) => String(error)));
   throw new Error(what);
 }
+/// The middle of what `state` names.
 async function place(name) {
-  const text = await until(new RegExp('^' + name.replace(/[.*+?^${}()|[\]\\]/g, '\\$&') + ' ', 'm'), 'there is "' + name + '"', 20);
-  const line = text.split('\n').find((each) => each.startsWith(name + ' '));
-  const [x0, y0, x1, y1] = line.slice(name.length).trim().split(/\s+/).map(Number);
-  return [(x0 + x1) / 2, (y0 + y1) / 2];
+  const text = await until(new RegExp('^at -?\\d+ -?\\d+ ' + name.replace(/[.*+?^${}()|[\]\\]/g, '\\$&') + '$', 'm'), 'there is "' + name + '"', 20);
+  const line = text.split('\n').find((each) => each.startsWith('at ') && each.endsWith(' ' + name));
+  return line.split(' ').slice(1, 3).map(Number);
+}
+async function click(name) { await page.mouse.click(...await place(name), { delay: 60 }); }
+/// An entry of a menu.
+async function choose(menu, entry) {
+  await click('menu ' + menu);
+  await page.waitForTimeout(400);
+  await click('action ' + entry);
 }
 const shot = (name) => page.screenshot({ path: path.join(shots, name + '.png') });
 
@@ -62,11 +69,48 @@ try {
   await page.goto('about:blank');
   const first = Date.now();
   await page.goto(address + '#scene=glass.ray&width=300&pixel=120,90');
-  await until(/rendered|samples/, 'a scene named in the address is rendered');
+  await until(/^logged rendered/m, 'a scene named in the address is rendered');
   console.log('        first picture after ' + (Date.now() - first) + ' ms');
-  await page.waitForTimeout(5000);
+  await until(/^pixel 120 90$/m, 'the pixel of the address is chosen');
+  await until(/^why \S/m, 'its colour is explained');
+  await page.waitForTimeout(1500);
   await shot('scene');
-  console.log(await stateText());
+
+  const [x, y] = await place('picture');
+  await page.mouse.click(x - 60, y + 30, { delay: 60 });
+  await until(/^pixel (?!120 90)/m, 'a click chooses another pixel');
+
+  // An edit, and the file of it.
+  await click('panel Scene');
+  await page.waitForTimeout(800);
+  await shot('panel');
+  const before = page.waitForEvent('download', { timeout: 30000 });
+  await choose('File', 'Save scene');
+  const saved = await before;
+  check(/\.ray$/.test(saved.suggestedFilename()), 'the scene is saved in the downloads as ' + saved.suggestedFilename());
+  check(readFileSync(await saved.path(), 'utf8').includes('camera'), 'it holds a scene');
+
+  // A link holds the scene and the pixel.
+  await choose('File', 'Copy link');
+  await page.waitForTimeout(1500);
+  const link = page.url();
+  check(/#text=[\w-]+&pixel=\d+,\d+$/.test(link), 'the link holds text and pixel: ' + link.slice(0, 60) + '... (' + link.length + ' characters)');
+  await page.goto('about:blank');
+  await page.goto(link);
+  await until(/^file link\.ray$/m, 'the link opens');
+  await until(/^why \S/m, 'and explains its pixel');
+  await shot('link');
+
+  // A file of the computer.
+  await page.goto('about:blank');
+  await page.goto(address);
+  await until(/^at .* menu File$/m, 'the page loads again');
+  const scene = path.join(mkdtempSync(path.join(tmpdir(), 'trace-scene-')), 'mine.ray');
+  writeFileSync(scene, 'Trace 1\nsphere { material = { diffuse = (1, 0, 0) } }\n');
+  await page.setInputFiles('#files', scene);
+  await until(/^file mine\.ray$/m, 'a file of the computer opens');
+  await until(/^logged rendered/m, 'and is rendered', 120);
+  await shot('own');
   check(outside.length === 0, 'nothing is asked of another server' + outside.slice(0, 3).join(' '));
 } catch (error) {
   console.log(String(error));

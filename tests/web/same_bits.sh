@@ -13,7 +13,7 @@ seconds() { local TIMEFORMAT=%U; { time "$@" >/dev/null 2>&1; } 2>&1; }
 differing=0
 for scene in "$@"; do
   name="$(basename "$scene" .ray)"
-  options=(-w 120 --spp 4 --threads 2 --progress off)
+  options=(-w 120 --spp 4 --threads 2)
   native="$(seconds "$ray" "$scene" "${options[@]}" -o "$folder/a.exr")"
   web="$(seconds node --no-experimental-fetch "$script" "$scene" "${options[@]}" -o "$folder/b.exr")"
   said="$("$ray" diff "$folder/a.exr" "$folder/b.exr" 2>&1 | head -n 1 || true)"
