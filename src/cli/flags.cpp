@@ -16,6 +16,7 @@ namespace {
 using Takes = Flag::Takes;
 constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff}, kGrade{Verb::grade},
     kConvert{Verb::convert}, kStereogram{Verb::stereogram}, kComparing{Verb::diff, Verb::grade},
+    kWatched{Verb::render, Verb::diff, Verb::grade},
     kOfScenes{Verb::render, Verb::info,  Verb::bench,      Verb::explain, Verb::lint,
               Verb::diff,   Verb::grade, Verb::stereogram, Verb::split},
     kStrict{Verb::render, Verb::info,  Verb::bench,   Verb::explain,    Verb::lint,
@@ -265,7 +266,7 @@ std::span<const Flag> flags() {
              constexpr std::array<std::string_view, 2> kNames{"table", "json"};
              a.stats = pick("stats", value, kNames) == 0 ? StatsStyle::table : StatsStyle::json;
            }},
-      Flag{"progress", 0, Takes::optional, "auto|bar|plain|json|none", "auto", kRender, true,
+      Flag{"progress", 0, Takes::optional, "auto|bar|plain|json|none", "auto", kWatched, true,
            "how far it is: a bar on a terminal, else a line now and then (auto)",
            [](Arguments& a, std::string_view value) {
              constexpr std::array<std::string_view, 5> kNames{"auto", "bar", "plain", "json", "none"};

@@ -15,6 +15,7 @@
 #include "cli/frames.h"
 #include "cli/render_steps.h"
 #include "cli/terminal/terminal.h"
+#include "image/codecs/codec.h"
 
 namespace trace::cli {
 namespace {
@@ -108,6 +109,9 @@ int renderPart(const Arguments& arguments, const std::string& named, const Conso
   if (arguments.frames.size() > 1)
     throw Error(Fault::usage, "--part: expected one frame, found " + std::to_string(arguments.frames.size()),
                 "--frames 7 --part 2/5; ray split makes the jobs of all frames");
+  if (pictureFormatNamed(named))
+    throw Error(Fault::usage, "--part: expected a name that ends in .part, found \"" + named + "\"",
+                "a part is no picture: ray merge makes one of all parts");
   if (!arguments.frames.empty()) choices.push_back(momentOf(arguments, arguments.frames.front()));
   Signals signals;
   Session session;

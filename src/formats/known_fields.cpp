@@ -127,6 +127,10 @@ std::span<const KnownFormat> knownFormats() {
       KnownFormat{"HDR", "Radiance HDR", "Brightness and colours are those that were measured.",
                   knownHdrFields()},
       KnownFormat{"EXR", "OpenEXR", "All compressions that OpenEXR reads.", knownExrFields()},
+      KnownFormat{"PPM", "PBM, PGM, PPM and PAM",
+                  "Netpbm's formats, whatever the suffix. Written is P6 with a maximum of 255.",
+                  knownPpmFields()},
+      KnownFormat{"PFM", "PFM", "Floats, of both byte orders.", knownPfmFields()},
       KnownFormat{"WebP", "WebP", "Read, not written.", knownWebpFields()},
   };
   return kAll;

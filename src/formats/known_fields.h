@@ -54,6 +54,8 @@ std::span<const KnownField> knownBmpFields();
 std::span<const KnownField> knownTgaFields();
 std::span<const KnownField> knownHdrFields();
 std::span<const KnownField> knownExrFields();
+std::span<const KnownField> knownPpmFields();
+std::span<const KnownField> knownPfmFields();
 std::span<const KnownField> knownWebpFields();
 
 /// The file docs/formats.md.

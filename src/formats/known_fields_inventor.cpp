@@ -11,6 +11,7 @@ using namespace known;
 
 constexpr std::string_view kActs = "acts by a ROUTE, which is reported",
                            kSeen = "does not affect the picture", kCut = "nothing is cut off",
+                           kKit = "a Separator of its parts, in their order",
                            kPolygons = "polygons of up to 64 corners may be concave anyway";
 
 constexpr std::array kInventorRows{
@@ -26,6 +27,15 @@ constexpr std::array kInventorRows{
     KnownField{"Selection", kShown, "a Separator"},
     KnownField{"Annotation", kShown, "a Separator"},
     KnownField{"WWWAnchor", kShown, "a Separator"},
+    KnownField{"SceneKit", kShown, kKit},
+    KnownField{"SeparatorKit", kShown, kKit},
+    KnownField{"ShapeKit", kShown, kKit},
+    KnownField{"WrapperKit", kShown, kKit},
+    KnownField{"LightKit", kShown, kKit},
+    KnownField{"CameraKit", kShown, kKit},
+    KnownField{"AppearanceKit", kShown, "its parts act on what follows it"},
+    KnownField{"NodeKitListPart", kShown, "its containerNode"},
+    KnownField{"draggers, manipulators", kReported, "their fields of nodes are shown"},
     KnownField{"Switch.whichChild", kShown, ""},
     KnownField{"LOD", kShown, "its first child, the finest"},
     KnownField{"LevelOfDetail", kShown, "its first child, the finest"},

@@ -1,6 +1,6 @@
 // How Trace treats the fields of pictures. Sources: PNG (ISO/IEC 15948); JFIF 1.02, EXIF 2.3, ITU T.81;
 // Microsoft, "Bitmap Header Types"; Truevision, TGA 2.0; Greg Ward, Radiance picture format; OpenEXR,
-// "Standard Attributes"; RFC 9649, WebP.
+// "Standard Attributes"; RFC 9649, WebP; netpbm's pbm(5), pgm(5), ppm(5), pam(5) and pfm(5).
 #include <array>
 
 #include "formats/known_fields.h"
@@ -136,6 +136,30 @@ constexpr std::array kExrRows{
     KnownField{"other attributes", kIdle, "Trace's own tell how a picture was made"},
 };
 
+constexpr std::array kPpmRows{
+    KnownField{"P1", kShown, "black and white as digits"},
+    KnownField{"P2", kShown, "grey as numbers"},
+    KnownField{"P3", kShown, "colours as numbers"},
+    KnownField{"P4", kShown, "black and white"},
+    KnownField{"P5", kShown, "grey"},
+    KnownField{"P6", kShown, "colours"},
+    KnownField{"maximum", kShown, "1 to 65535"},
+    KnownField{"# comment", kIdle, "Trace's own tell how a picture was made"},
+    KnownField{"P7: WIDTH, HEIGHT, DEPTH", kShown, ""},
+    KnownField{"P7: MAXVAL", kShown, ""},
+    KnownField{"P7: TUPLTYPE", kIdle, "the depth says it"},
+    KnownField{"P7: TUPLTYPE of another kind", kRefused, "CMYK ..."},
+    KnownField{"P7: depths 2 and 4, alpha", kShown, "holes"},
+    KnownField{"several pictures", kReported, "the first is shown"},
+};
+
+constexpr std::array kPfmRows{
+    KnownField{"PF", kShown, "colours"},
+    KnownField{"Pf", kShown, "grey"},
+    KnownField{"scale: sign", kShown, "the byte order"},
+    KnownField{"scale: size", kReported, "if it is not 1"},
+};
+
 constexpr std::array kWebpRows{
     KnownField{"VP8, with loss", kShown, ""},
     KnownField{"VP8L, without loss", kShown, ""},
@@ -156,6 +180,8 @@ std::span<const KnownField> knownBmpFields() { return kBmpRows; }
 std::span<const KnownField> knownTgaFields() { return kTgaRows; }
 std::span<const KnownField> knownHdrFields() { return kHdrRows; }
 std::span<const KnownField> knownExrFields() { return kExrRows; }
+std::span<const KnownField> knownPpmFields() { return kPpmRows; }
+std::span<const KnownField> knownPfmFields() { return kPfmRows; }
 std::span<const KnownField> knownWebpFields() { return kWebpRows; }
 
 }  // namespace trace

@@ -57,6 +57,7 @@ Mesh withMaterials(const MeshData& mesh, const Model& model, const Material& bas
 }  // namespace
 
 void MeshRepairs::check(MeshData& mesh, const Place& place) {
+  const std::size_t before = flaws();
   dropInfinite(mesh, place);
   for (Vec3f& normal : mesh.normals)
     if (!isFinite(normal)) {
@@ -72,6 +73,11 @@ void MeshRepairs::check(MeshData& mesh, const Place& place) {
   degenerate_ += dropDegenerate(mesh);
   zeroNormals_ += repairNormals(mesh);
   triangles_ += mesh.triangles.size();
+  if (flaws() > before && place.line > 0 && !first_) first_ = place;
+}
+
+std::size_t MeshRepairs::flaws() const {
+  return infinitePoints_ + lostTriangles_ + notFinite_ + degenerate_ + zeroNormals_;
 }
 
 void MeshRepairs::dropInfinite(MeshData& mesh, const Place& place) {
@@ -104,7 +110,7 @@ void MeshRepairs::dropInfinite(MeshData& mesh, const Place& place) {
 
 void MeshRepairs::report(const Place& place, Messages& messages) const {
   const auto warn = [&](std::string_view what, std::size_t count) {
-    if (count > 0) messages.warn(place, std::string(what) + ": " + std::to_string(count));
+    if (count > 0) messages.warn(first_.value_or(place), std::string(what) + ": " + std::to_string(count));
   };
   warn("points that are not three finite numbers of at most 3.4e38", infinitePoints_);
   warn("triangles that use such points are left out", lostTriangles_);

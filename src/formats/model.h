@@ -40,18 +40,20 @@ struct Model {
 /// Checks of meshes for every reader, and the number of repairs.
 class MeshRepairs {
  public:
-  /// Makes a mesh one that can be traced. Throws Error(Fault::scene) if each triangle uses a point that is
-  /// not finite.
+  /// Makes a mesh one that can be traced. The place is that of its first flaw, where the reader knows it.
+  /// Throws Error(Fault::scene) if each triangle uses a point that is not finite.
   void check(MeshData& mesh, const Place& place);
-  /// Warns of what all meshes so far had.
+  /// Warns of what all meshes so far had, at the place of the first flaw that has a line, or else at `place`.
   void report(const Place& place, Messages& messages) const;
 
  private:
+  std::size_t flaws() const;
   /// Without the triangles whose points are not finite.
   void dropInfinite(MeshData& mesh, const Place& place);
 
   std::size_t infinitePoints_ = 0, lostTriangles_ = 0, notFinite_ = 0, degenerate_ = 0, zeroNormals_ = 0,
               triangles_ = 0;
+  std::optional<Place> first_;  ///< place of the first flaw
 };
 
 /// Adds the mesh of a file that holds just one, repaired with warnings. Throws as MeshRepairs::check().

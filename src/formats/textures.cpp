@@ -41,7 +41,7 @@ void load(const std::string& path, Loaded& loaded) {
 }
 
 constexpr std::size_t kMostNamed = 3, kLongName = 80;
-constexpr std::string_view kUnread = " cannot be read: ";
+constexpr std::string_view kUnread = " cannot be read";
 
 }  // namespace
 
@@ -105,9 +105,11 @@ bool isOfUnreadTextures(const Message& warning) {
   return warning.what.starts_with("the texture") && warning.what.find(kUnread) != std::string::npos;
 }
 
-void UnusedTextures::note(std::string_view name, const Place& place) {
+void UnusedTextures::note(std::string_view name, const Place& place, std::string_view use) {
   if (names_.empty()) place_ = place;
-  if (known_.emplace(name).second) names_.emplace_back(name.substr(0, kLongName));
+  if (!known_.insert(std::string(name) + '\n' + std::string(use)).second) return;
+  names_.emplace_back(name.substr(0, kLongName));
+  shown_.push_back('"' + names_.back() + '"' + (use.empty() ? "" : " of " + std::string(use)));
 }
 
 std::string UnusedTextures::list() const {
@@ -116,7 +118,7 @@ std::string UnusedTextures::list() const {
   std::string list;
   for (std::size_t i = 0; i < named; ++i) {
     const bool last = i + 1 == count;
-    list += (i == 0 ? "" : last ? " and " : ", ") + ("\"" + names_[i] + "\"");
+    list += (i == 0 ? "" : last ? " and " : ", ") + shown_[i];
   }
   if (named < count) list += " and " + std::to_string(count - named) + " more";
   return (count == 1 ? "the texture " : "the textures ") + list;
@@ -132,12 +134,13 @@ void UnusedTextures::reportUnread(Messages& messages, std::string_view reason) c
   if (names_.empty()) return;
   constexpr std::string_view kAgain = "cannot read ";
   if (reason.starts_with(kAgain)) reason.remove_prefix(kAgain.size());
-  const std::string name = "\"" + names_.front() + "\": ";
-  if (names_.size() == 1 && reason.starts_with(name)) reason.remove_prefix(name.size());
+  std::string why = ": " + std::string(reason);
+  if (const std::string name = '"' + names_.front() + '"'; names_.size() == 1 && reason.starts_with(name))
+    why = reason.substr(name.size());  // ": No such file", or " as PNG: the file ends too early"
   const bool isWord = std::all_of(names_.begin(), names_.end(), [](const std::string& file) {
     return file.find_first_of("./\\") == file.npos;  // as in diffuse = "red"
   });
-  messages.warn(place_, list() + std::string(kUnread) + std::string(reason),
+  messages.warn(place_, list() + std::string(kUnread) + why,
                 std::string("a checker of magenta and black shows instead") +
                     (isWord ? "; a colour is (red, green, blue), each from 0 to 1" : ""));
 }

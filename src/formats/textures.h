@@ -34,8 +34,9 @@ std::shared_ptr<const MipMap> missingPicture();
 /// Pictures that a scene names and nobody will see.
 class UnusedTextures {
  public:
-  /// Notes one by its name as the file gives it. The first one gives the warning its place.
-  void note(std::string_view name, const Place& place);
+  /// Notes one by its name as the file gives it, and the field or keyword that names it, where one picture
+  /// may have several uses. The first one gives the warning its place.
+  void note(std::string_view name, const Place& place, std::string_view use = {});
   bool empty() const { return names_.empty(); }
 
   /// Warns if there was one. `instead` says what is seen in its place.
@@ -50,6 +51,7 @@ class UnusedTextures {
 
   Place place_;
   std::vector<std::string> names_;  ///< each once
+  std::vector<std::string> shown_;  ///< "a.png" of refl
   std::set<std::string, std::less<>> known_;
 };
 

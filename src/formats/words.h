@@ -69,7 +69,10 @@ class Words {
   void skipTo(std::size_t at) { at_ = at; }
 
   /// Where the last word begins.
-  Place place() const { return placeAt(file_, text_, start_); }
+  Place place() const { return placeAt(start_); }
+  std::size_t start() const { return start_; }
+  /// Where that byte is.
+  Place placeAt(std::size_t at) const { return trace::placeAt(file_, text_, at); }
 
   /// Bytes not read yet: no count in a file can be larger.
   std::size_t left() const { return text_.size() - at_; }
@@ -77,11 +80,9 @@ class Words {
   [[noreturn]] void fail(std::string what, std::string_view found) const {
     what += found.empty() ? ", found the end of the file"
                           : ", found \"" + std::string(found.substr(0, 40)) + "\"";
-    throw Error(Fault::scene, placeAt(file_, text_, start_), std::move(what));
+    throw Error(Fault::scene, place(), std::move(what));
   }
-  [[noreturn]] void fail(std::string what) const {
-    throw Error(Fault::scene, placeAt(file_, text_, start_), std::move(what));
-  }
+  [[noreturn]] void fail(std::string what) const { throw Error(Fault::scene, place(), std::move(what)); }
 
  private:
   static bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }

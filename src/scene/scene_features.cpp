@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "scene/scene.h"
 #include "shading/lights/goniometric_light.h"
 #include "shading/lights/point_light.h"
 #include "shading/medium.h"
@@ -53,6 +54,15 @@ std::span<const std::string_view> sceneFeatureNames() {
     return all;
   }();
   return kAll;
+}
+
+bool hasFeature(const Scene& scene, SceneFeature feature) {
+  const EnumSet<SceneFeature> only{feature};
+  return std::any_of(
+             scene.materials.begin(), scene.materials.end(),
+             [&](const Material& material) { return !(withoutFeatures(material, only) == material); }) ||
+         std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [&](const LightSource& source) { return lightWithout(source.light, only).has_value(); });
 }
 
 Material asPhong(Material material) {

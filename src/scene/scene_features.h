@@ -13,6 +13,8 @@
 
 namespace trace {
 
+struct Scene;
+
 struct SceneFeatureRow {
   std::string_view name;     ///< that of the light, of the shading model or of the field of materials
   std::string_view without;  ///< what takes its place, no full stop
@@ -22,6 +24,9 @@ struct SceneFeatureRow {
 /// In the order of SceneFeature: fields of materials, lights, then all shading models but Phong's.
 std::span<const SceneFeatureRow> sceneFeatures();
 std::span<const std::string_view> sceneFeatureNames();
+
+/// A material or a light of the scene has it.
+bool hasFeature(const Scene& scene, SceneFeature feature);
 
 /// The material without what is switched off: no medium, no bumps, no displacement, no holes; Phong's closest
 /// approximation in place of a shading model.

@@ -115,6 +115,7 @@ TEST_F(ClassGradeTest, EachStudentGetsCausesAndPointsWorstFirst) {
   EXPECT_EQ(pair("half").mistakes, std::vector<std::string>{"shift"});
   EXPECT_EQ(pair("exchanged").mistakes, std::vector<std::string>{"channels"});
   EXPECT_EQ(pair("other").verdict, Verdict::beyond);
+  EXPECT_EQ(pair("other").mistakes, std::vector<std::string>{"black"});
   EXPECT_EQ(pair("small").verdict, Verdict::sizesDiffer);
   EXPECT_EQ(pair("broken").verdict, Verdict::unreadable);
   EXPECT_EQ(pair("empty").verdict, Verdict::missing);
@@ -222,6 +223,16 @@ TEST_F(ClassGradeTest, ARubricSaysWhereItIsWrong) {
   EXPECT_NE(rubricError("scene a 1 2\n").find(":1:11:"), std::string::npos);
   EXPECT_NE(rubricError("metric flop 1 50%\n").find(":1:8:"), std::string::npos);
   EXPECT_NE(rubricError("points 3\n").find("expected scene, cause or metric"), std::string::npos);
+  EXPECT_THROW(
+      {
+        try {
+          rubric("scene a\n\ncause x 1%\nfoo\nscene b 1\n");
+        } catch (const Error& error) {
+          EXPECT_EQ(error.messages().size(), 3u);
+          throw;
+        }
+      },
+      Error);
   const Rubric steps =
       rubric("metric max 5 90%\nmetric max 20 50%\nmetric psnr 30 20%\nscene a 2\nscene * 3\n");
   EXPECT_EQ(steps.pointsOf("a"), 2);
@@ -240,6 +251,45 @@ TEST_F(ClassGradeTest, ARubricSaysWhereItIsWrong) {
   EXPECT_EQ(steps.shareOf(pair), 0.2);
   value("psnr") = 10;
   EXPECT_EQ(steps.shareOf(pair), 0);
+}
+
+TEST_F(ClassGradeTest, ARowThatFitsNoReferenceIsAnError) {
+  picture("ref/glass.png", classPicture()), picture("ref/shadows.png", classPicture());
+  picture("in/ann/glass.png", classPicture());
+  ClassTask t = task();
+  t.rubric = rubric("scene glas 10\nscene sh* 2\nscene * 1\nscene mirrors 3\n");
+  try {
+    gradeClass(t);
+    FAIL() << "expected an error";
+  } catch (const Error& error) {
+    ASSERT_EQ(error.messages().size(), 2u);
+    EXPECT_EQ(error.messages()[0].hint, "did you mean \"glass\"?");
+    EXPECT_EQ(error.messages()[0].place.column, 7);
+    EXPECT_EQ(error.messages()[1].place.line, 4);
+  }
+}
+
+TEST_F(ClassGradeTest, FilesWithoutAReferenceAreListed) {
+  picture("ref/shadows.png", classPicture());
+  picture("in/ann/shadow.png", classPicture()), picture("in/ann/old/other.png", classPicture());
+  picture("in/bob/shadows.png", classPicture()), picture("in/bob/old/shadows.png", classPicture());
+  const ClassGrades grades = gradeClass(task());
+  const ClassStudent &ann = student(grades, "ann"), &bob = student(grades, "bob");
+  EXPECT_EQ(ann.extra, (std::vector<std::string>{"old/other.png", "shadow.png"}));
+  EXPECT_EQ(ann.pairs.at(0).verdict, Verdict::missing);
+  EXPECT_EQ(ann.pairs.at(0).problem, "missing; there is shadow.png");
+  EXPECT_TRUE(bob.extra.empty());
+  const std::string page = classPage(task(), grades);
+  EXPECT_NE(page.find("Without a reference: ann/old/other.png, ann/shadow.png"), std::string::npos);
+  EXPECT_NE(classCsv(grades).find(",missing,missing; there is shadow.png,"), std::string::npos);
+}
+
+TEST_F(ClassGradeTest, RowsOfTheTableAreLines) {
+  picture("ref/a.png", classPicture());
+  text("in/ann/a.png", readFile(path("ref/a.png")).substr(0, 60));
+  text("in/bob\nx/a.png", "none");
+  const std::string csv = classCsv(gradeClass(task()));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3) << csv;
 }
 
 TEST_F(ClassGradeTest, FoldersMustBeThere) {

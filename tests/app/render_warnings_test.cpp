@@ -25,6 +25,7 @@ std::string warnings(const std::string& text, const std::vector<Choice>& choices
         message.what.find("infinite fog") != std::string::npos ||
         message.what.find("is not photorealistic") != std::string::npos ||
         message.what.find("more light than it receives") != std::string::npos ||
+        message.what.find("counts as 1667 kelvin") != std::string::npos ||
         message.what.find("past the scene") != std::string::npos ||
         message.what.find("nothing is in focus") != std::string::npos)
       all += message.what + "\n";
@@ -115,6 +116,14 @@ TEST(RenderWarnings, OptionsOfASceneAreToldWithItsOwnIntegratorOnly) {
   EXPECT_EQ(warnings(caustics + "}", {{"integrator", "path", {}}}), "");
 }
 
+TEST(RenderWarnings, WhatAQualityChoosesIsNotToldAsAnOption) {
+  EXPECT_EQ(warnings(kLit, {{"quality", "good", {}}, {"integrator", "whitted", {}}}), "");
+  EXPECT_NE(
+      warnings(kLit, {{"quality", "good", {}}, {"integrator", "whitted", {}}, {"firefly-limit", "3", {}}})
+          .find("--firefly-limit changes nothing"),
+      std::string::npos);
+}
+
 TEST(RenderWarnings, AreToldWithTheirReason) {
   const auto about = [](const std::string& text, const std::vector<Choice>& choices, const char* expected) {
     const std::string found = warnings(text, choices);
@@ -152,6 +161,9 @@ TEST(RenderWarnings, AreToldWithTheirReason) {
   about(kLit, {{"denoise", "on", {}}, {"spp", "64", {}}, {"integrator", "mlt", {}}},
         "--denoise changes nothing");
   about(kLit, {{"light-choices", "2", {}}}, "fewer than two lights");
+  about(kLit, {{"white-balance", "5", {}}}, "--white-balance 5 counts as 1667 kelvin");
+  about(kLit, {{"switched-off", "spot_light,ward", {}}},
+        "--without spot_light and ward changes nothing: the scene has none");
   about(kLit, {{"subsurface-samples", "3", {}}}, "--subsurface-samples changes nothing");
 }
 
@@ -177,6 +189,10 @@ TEST(RenderWarnings, AreNotToldWhereTheyDoSomething) {
       "");
   EXPECT_EQ(warnings(kLit + mesh, {{"smooth-terminator", "on", {}}}), "");
   EXPECT_EQ(warnings(kLit, {{"noise-target", "0.01", {}}, {"spp", "64", {}}, {"integrator", "path", {}}}),
+            "");
+  EXPECT_EQ(warnings(kLit, {{"white-balance", "3200", {}}, {"switched-off", "all", {}}}), "");
+  EXPECT_EQ(warnings(std::string(kLit) + "sphere { material = { opacity = 0.5; } }",
+                     {{"switched-off", "opacity", {}}}),
             "");
   EXPECT_EQ(warnings(kLit, {{"quality", "good", {}}, {"spp", "16", {}}}), "")
       << "nobody asked for a noise target";

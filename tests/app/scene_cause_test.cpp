@@ -1,47 +1,35 @@
 // Wrong renderers, made by breaking our own: what a program did differently with a scene is named, and where
 // nothing that was tried explains it, that is said.
-#include "app/compare/scene_cause.h"
-
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "app/compare/causes.h"
 #include "app/session/session.h"
+#include "base/budget.h"
 #include "base/files/file.h"
 #include "image/codecs/codec.h"
 #include "image/development/development.h"
 #include "support/folder.h"
 #include "support/paths.h"
+#include "support/wrong_room.h"
 
 namespace trace::test {
 namespace {
 
-/// A floor, a mirror, a glass ball, and things with highlights, in the light of two lamps.
-constexpr const char* kRoom = R"(SBT-raytracer 1.0
-camera { position = (0, 2.4, 7); look_at = (0, 0.7, 0); fov = 36; aspectratio = 1.5; }
-point_light { name = "key"; position = (-3, 5, 4); color = (0.7, 0.66, 0.6); constant_attenuation_coeff = 0.4; linear_attenuation_coeff = 0.1; quadratic_attenuation_coeff = 0; }
-directional_light { name = "sun"; direction = (-0.6, -1, -0.3); color = (0.3, 0.32, 0.4); }
-ambient_light { color = (0.3, 0.3, 0.34); }
-material = { ambient = (0.5, 0.45, 0.4); diffuse = (0.6, 0.55, 0.5); }
-rotate(1, 0, 0, -1.5708, scale(20, 20, 1, square { name = "floor"; }))
-translate(0, 1.5, -3, scale(5, 3, 1, square { name = "mirror"; material = { reflective = (0.8, 0.8, 0.8); diffuse = (0.05, 0.05, 0.05); } }))
-translate(-1.4, 0.7, 0, scale(0.7, sphere { name = "ball"; material = { ambient = (0.4, 0.1, 0.1); diffuse = (0.7, 0.2, 0.15); specular = (0.6, 0.6, 0.6); shininess = 20; reflective = (0, 0, 0); } }))
-translate(0.3, 0.6, 1.2, scale(0.6, sphere { name = "glass"; material = { transmissive = (0.9, 0.95, 0.9); index = 1.5; specular = (0.5, 0.5, 0.5); shininess = 60; reflective = (0.08, 0.08, 0.08); } }))
-translate(1.7, 0.6, 0.2, rotate(0, 1, 0, 0.5, scale(1.2, box { name = "box"; material = { ambient = (0.1, 0.2, 0.4); diffuse = (0.2, 0.4, 0.7); specular = (0.3, 0.3, 0.3); shininess = 8; } })))
-)";
-
 class SceneCause : public testing::Test {
  protected:
-  SceneCause() { writeFile(room(), kRoom); }
+  SceneCause() { writeFile(room(), wrongRoom()); }
 
   std::string room() const { return folder_ / "room.ray"; }
 
   /// A picture of a scene's text after a replacement, as levels of a file.
   LoadedPicture rendered(const std::vector<Choice>& choices = {}, const std::string& from = "",
                          const std::string& to = "") const {
-    std::string text = kRoom;
+    std::string text = wrongRoom();
     if (!from.empty()) {
       EXPECT_NE(text.find(from), text.npos) << from;
       for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
@@ -88,9 +76,9 @@ TEST_F(SceneCause, TermsThatAreMissingAreNamed) {
        "the reflection in mirror"},
       {"ambient_light { color = (0.3, 0.3, 0.34); }", "", "without ambient light", "ambient light"},
       {"index = 1.5", "index = 1.0003", "with glass that does not bend light", ""},
-      {"direction = (-0.6, -1, -0.3)", "direction = (0.6, 1, 0.3)",
-       "with directional lights from the opposite side", "light of sun"},
-      {"linear_attenuation_coeff = 0.1", "linear_attenuation_coeff = 0", "", ""},
+      {"direction = (-0.6, -1, -0.3)", "direction = (0.6, 1, 0.3)", "without the light sun", "light of sun"},
+      {"linear_attenuation_coeff = 0.1", "linear_attenuation_coeff = 0",
+       "without the linear attenuation of lights", ""},
   };
   for (const auto& [from, to, cause, pixel] : cases) {
     SCOPED_TRACE(from + " -> " + to);
@@ -113,7 +101,6 @@ TEST_F(SceneCause, OptionsThatDifferAreNamed) {
        std::vector<std::pair<std::string, std::string>>{{"highlight", "phong"},
                                                         {"depth", "1"},
                                                         {"depth", "0"},
-                                                        {"omit", "box"},
                                                         {"projection", "orthographic"},
                                                         {"pixel-position", "center"},
                                                         {"like", "ut"},
@@ -153,17 +140,53 @@ TEST_F(SceneCause, ExchangedPicturesAreTold) {
       "mine.png is not what " + room() + " gives: the reference stands first, the picture to explain second");
 }
 
+TEST_F(SceneCause, WhatIsMissingIsNamedBeforeOptionsAndSigns) {
+  const LoadedPicture right = rendered();
+  const SceneCauses sun =
+      causes(right, rendered({}, "direction = (-0.6, -1, -0.3)", "direction = (0.6, 1, 0.3)"));
+  ASSERT_TRUE(sun.test.has_value());
+  EXPECT_EQ(sun.test->text(), "without the light sun");
+  EXPECT_EQ(sun.test->alike, std::vector<std::string>{"with directional lights from the opposite side"});
+  const SceneCauses box = causes(right, rendered({{"omit", "box", {}}}));
+  EXPECT_EQ(textOf(box.test), "without the object box");
+  EXPECT_EQ(box.test->alike, std::vector<std::string>{"with --omit box"});
+}
+
+TEST_F(SceneCause, AnyDepthIsNamed) {
+  const std::vector<Choice> base{{"depth", "6", {}}};
+  const LoadedPicture right = rendered(base);
+  for (const char* depth : {"1", "3"}) {
+    const SceneCauses found = causes(right, rendered({{"depth", depth, {}}}), base);
+    EXPECT_EQ(textOf(found.test), "with --depth " + std::string(depth));
+  }
+}
+
+TEST_F(SceneCause, OtherValuesAreNamed) {
+  const LoadedPicture right = rendered();
+  struct {
+    std::string from, to, cause;
+  } const cases[] = {
+      {"diffuse = (0.2, 0.4, 0.7)", "diffuse = (0.7, 0.4, 0.2)", "with diffuse (0.7, 0.4, 0.2) in box"},
+      {"fov = 36", "fov = 31", "with fov 31 in the camera"},
+      {"shininess = 20", "shininess = 3", "with shininess 3 in ball"},
+      {"index = 1.5", "index = 1.2", "with index 1.2 in glass"},
+      {"transmissive = (0.9, 0.95, 0.9)", "transmissive = (0.3, 0.95, 0.9)",
+       "with transmissive (0.3, 0.95, 0.9) in glass"},
+  };
+  for (const auto& [from, to, cause] : cases) {
+    SCOPED_TRACE(from + " -> " + to);
+    const SceneCauses found = causes(right, rendered({}, from, to));
+    EXPECT_EQ(textOf(found.test), cause);
+    EXPECT_LT(found.test.value_or(SceneMatch{}).rmse, 0.05 * found.rmse);
+  }
+}
+
 TEST_F(SceneCause, WhatNothingExplainsIsSaid) {
   const LoadedPicture right = rendered();
   const std::vector<std::pair<std::string, std::string>> cases{
       {"translate(-1.4, 0.7, 0, scale(0.7,", "translate(-1.1, 0.7, 0.3, scale(0.7,"},
-      {"diffuse = (0.2, 0.4, 0.7)", "diffuse = (0.7, 0.4, 0.2)"},
       {"position = (-3, 5, 4)", "position = (-1, 5, 4)"},
-      {"fov = 36", "fov = 31"},
-      {"shininess = 20", "shininess = 3"},
       {"rotate(0, 1, 0, 0.5, scale(1.2,", "rotate(0, 1, 0, 1.1, scale(1,"},
-      {"index = 1.5", "index = 1.2"},
-      {"transmissive = (0.9, 0.95, 0.9)", "transmissive = (0.3, 0.95, 0.9)"},
       {"translate(0, 1.5, -3,", "translate(0.9, 1.5, -2.2,"},
       {"look_at = (0, 0.7, 0)", "look_at = (0.3, 0.7, 0)"},
   };
@@ -174,7 +197,74 @@ TEST_F(SceneCause, WhatNothingExplainsIsSaid) {
     const std::string said = sceneSentences(found, "ref.png", "mine.png").front();
     EXPECT_TRUE(said.starts_with("none of ")) << said;
     EXPECT_NE(said.find("explains mine.png"), said.npos) << said;
+    EXPECT_LE(found.nearest.value_or(SceneMatch{}).rmse, 0.75 * found.rmse) << said;
   }
+}
+
+TEST_F(SceneCause, ASearchThatWasCutSaysNothingFalse) {
+  const LoadedPicture right = rendered(), wrong = rendered({{"like", "ut", {}}});
+  for (const double seconds : {1e-9, 0.02, 0.05, 0.1, 0.2, 0.5}) {  // where it is cut does not matter
+    Budget budget;
+    budget.limitTime(seconds);
+    const BudgetScope scope(&budget);
+    const PictureDifference d = difference(right, wrong, {1, 67, true});
+    EXPECT_GT(d.numbers.rmse, 0);
+    const SceneQuestion question{.file = room(), .seconds = 0};
+    const Causes found = causesOf(d, &question);
+    if (!found.scene) {
+      EXPECT_NE(found.stopped, "") << seconds;
+      continue;
+    }
+    for (const std::string& sentence : sceneSentences(*found.scene, "ref.png", "mine.png"))
+      EXPECT_EQ(sentence.find("is not what"), sentence.npos) << seconds << ": " << sentence;
+  }
+}
+
+TEST_F(SceneCause, ACauseAndAVariantNeverContradictEachOther) {
+  const LoadedPicture right = rendered();
+  const auto explained = [&](const LoadedPicture& wrong) {
+    const SceneQuestion question{.file = room(), .seconds = 0};
+    return causesOf(difference(right, wrong, {1, 67}), &question);
+  };
+  const auto gamma = [](LoadedPicture picture) {
+    for (Color& c : picture.picture.pixels)
+      c = Color(std::pow(c.r, 1 / 2.2), std::pow(c.g, 1 / 2.2), std::pow(c.b, 1 / 2.2));
+    return LoadedPicture{fromBytes(toBytes(picture.picture, Rounding::nearest)), true};
+  };
+  const Causes plain = explained(gamma(right));
+  EXPECT_FALSE(plain.scene.has_value()) << "the cause leaves nothing";
+  ASSERT_TRUE(plain.picture.has_value());
+  EXPECT_EQ(plain.picture->change.text(), "with a gamma of 2.2 applied");
+
+  const Causes both = explained(gamma(rendered({}, "ambient_light { color = (0.3, 0.3, 0.34); }", "")));
+  EXPECT_FALSE(both.picture.has_value());
+  ASSERT_TRUE(both.scene && both.scene->test);
+  EXPECT_EQ(both.scene->test->text(), "without ambient light and with a gamma of 2.2 applied");
+
+  const Causes dim = explained(rendered({}, "color = (0.7, 0.66, 0.6)", "color = (0.35, 0.33, 0.3)"));
+  EXPECT_FALSE(dim.picture.has_value()) << dim.picture->change.text();
+  ASSERT_TRUE(dim.scene && dim.scene->test);
+  EXPECT_EQ(dim.scene->test->text(), "with color (0.35, 0.33, 0.3) in key");
+}
+
+TEST_F(SceneCause, WhatIsPlainToSeeIsSaidAndNotSearchedFor) {
+  const LoadedPicture right = rendered();
+  const auto notes = [&](const std::function<Color(const Color&)>& of, bool isSearched) {
+    LoadedPicture wrong = right;
+    for (Color& c : wrong.picture.pixels) c = of(c);
+    const SceneQuestion question{.file = room(), .seconds = 0};
+    const Causes found = causesOf(difference(right, wrong, {1, 67}), &question);
+    EXPECT_EQ(found.scene.has_value(), isSearched);
+    const std::vector<std::string> all = found.notes("ref.png", "mine.png", "levels");
+    return all.empty() ? std::string("none") : all.front();
+  };
+  EXPECT_EQ(notes([](const Color&) { return Color(0); }, false), "mine.png is black: all its pixels are 0");
+  EXPECT_EQ(notes([](const Color&) { return Color(1, 0, 0.2); }, false),
+            "mine.png is of one colour: all its pixels are (255 0 51)");
+  EXPECT_EQ(notes([](const Color& c) { return Color(c.g); }, true),
+            "mine.png is grey: its pixels have equal red, green and blue");
+  EXPECT_EQ(notes([](const Color& c) { return Color(1) + c * -1; }, false),
+            "mine.png is the negative of ref.png");
 }
 
 TEST_F(SceneCause, TheReferenceMayBeMadeByOtherOptions) {

@@ -13,26 +13,14 @@
 #include "image/codecs/codec.h"
 #include "image/comparison/flip.h"
 #include "support/folder.h"
+#include "support/wrong_room.h"
 
 namespace trace::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The room of scene_cause_test.cpp.
-constexpr const char* kWrongRoom = R"(SBT-raytracer 1.0
-settings { width = 96; depth = 2; }
-camera { position = (0, 2.4, 7); look_at = (0, 0.7, 0); fov = 36; aspectratio = 1.5; }
-point_light { name = "key"; position = (-3, 5, 4); color = (0.7, 0.66, 0.6); constant_attenuation_coeff = 0.4; linear_attenuation_coeff = 0.1; quadratic_attenuation_coeff = 0; }
-directional_light { name = "sun"; direction = (-0.6, -1, -0.3); color = (0.3, 0.32, 0.4); }
-ambient_light { color = (0.3, 0.3, 0.34); }
-material = { ambient = (0.5, 0.45, 0.4); diffuse = (0.6, 0.55, 0.5); }
-rotate(1, 0, 0, -1.5708, scale(20, 20, 1, square { name = "floor"; }))
-translate(0, 1.5, -3, scale(5, 3, 1, square { name = "mirror"; material = { reflective = (0.8, 0.8, 0.8); diffuse = (0.05, 0.05, 0.05); } }))
-translate(-1.4, 0.7, 0, scale(0.7, sphere { name = "ball"; material = { ambient = (0.4, 0.1, 0.1); diffuse = (0.7, 0.2, 0.15); specular = (0.6, 0.6, 0.6); shininess = 20; reflective = (0, 0, 0); } }))
-translate(0.3, 0.6, 1.2, scale(0.6, sphere { name = "glass"; material = { transmissive = (0.9, 0.95, 0.9); index = 1.5; specular = (0.5, 0.5, 0.5); shininess = 60; reflective = (0.08, 0.08, 0.08); } }))
-translate(1.7, 0.6, 0.2, rotate(0, 1, 0, 0.5, scale(1.2, box { name = "box"; material = { ambient = (0.1, 0.2, 0.4); diffuse = (0.2, 0.4, 0.7); specular = (0.3, 0.3, 0.3); shininess = 8; } })))
-)";
+constexpr const char* kSettings = "width = 96; depth = 2;";
 
 struct Wrong {
   std::string student, cause;  ///< a part of the sentence
@@ -93,7 +81,7 @@ std::vector<Wrong> wrongTracers() {
       {.student = "depth-less", .cause = "--depth 1", .choices = {{"depth", "1", {}}}},
       {.student = "no-recursion", .cause = "--depth 0", .choices = {{"depth", "0", {}}}},
       {.student = "no-reflection",
-       .cause = "lacks the reflection in mirror",
+       .cause = "with reflective (0, 0, 0) in mirror",
        .from = "reflective = (0.8, 0.8, 0.8);",
        .to = "reflective = (0, 0, 0);"},
       {.student = "no-bending",
@@ -124,7 +112,7 @@ class WrongTracers : public testing::Test {
  protected:
   /// The picture of the room, edited.
   Picture rendered(const Wrong& wrong) const {
-    std::string text = kWrongRoom;
+    std::string text = wrongRoom(kSettings);
     if (!wrong.from.empty()) {
       EXPECT_NE(text.find(wrong.from), text.npos) << wrong.student;
       for (std::size_t at = 0; (at = text.find(wrong.from, at)) != text.npos; at += wrong.to.size() + 1)
@@ -149,7 +137,7 @@ class WrongTracers : public testing::Test {
 
 TEST_F(WrongTracers, EachIsNamed) {
   fs::create_directories(root_ / "scenes");
-  writeFile(root_ / "scenes/Room.ray", kWrongRoom);
+  writeFile(root_ / "scenes/Room.ray", wrongRoom(kSettings));
   hand("ref/room.png", rendered({"", ""}));
   hand("in/right/room.png", rendered({"", ""}));
   const std::vector<Wrong> all = wrongTracers();

@@ -346,11 +346,51 @@ TEST_F(DiffCause, TheSceneSaysWhatAProgramDidDifferently) {
   EXPECT_EQ(found["tried"], found["variants"]);
 
   EXPECT_TRUE(contains(run({"diff", "right.png", "wrong.png", "--spp", "1"}).err, "expected --scene SCENE"));
-  const Run broken = run({"diff", "right.png", "wrong.png", "--scene", "no.ray"});
-  EXPECT_EQ(broken.code, 2);
-  EXPECT_TRUE(contains(broken.err, "no.ray"));
+  for (const char* other : {"right.png", "wrong.png"}) {
+    const Run broken = run({"diff", "right.png", other, "--scene", "no.ray"});
+    EXPECT_EQ(broken.code, 2) << other;
+    EXPECT_TRUE(contains(broken.err, "no.ray"));
+  }
   EXPECT_TRUE(contains(run({"diff", "right.png", "wrong.png", "--scene", "right.png", "-o", "right.png"}).err,
                        "same"));
+}
+
+TEST_F(DiffCause, WhatIsPlainToSeeIsSaidInPlaceOfASearch) {
+  render("right.png");
+  const Picture right = readPicture(path("right.png"));
+  const std::string scene = sourceFolder() + "/scenes/materials.ray";
+  const auto said = [&](const Picture& wrong) {
+    writePicture(path("wrong.png"), wrong);
+    return run({"diff", "right.png", "wrong.png", "--scene", scene, "--progress", "none"}).out;
+  };
+  const std::string black = said(Picture(right.width, right.height));
+  EXPECT_TRUE(contains(black, "\n  note    wrong.png is black: all its pixels are 0\n")) << black;
+  EXPECT_TRUE(
+      contains(black, "\n  scene   not compared with " + scene + ": a picture has one colour only\n"));
+  const std::string small = said(Picture(9, 7));
+  EXPECT_TRUE(contains(small, "\n  scene   not compared with " + scene + ": ")) << small;
+  Picture other(right.width / 2, right.height);
+  for (std::size_t i = 0; i < other.pixels.size(); ++i) other.pixels[i] = Color(0.001 * (i % 999));
+  EXPECT_TRUE(contains(said(other), ": the sizes differ\n"));
+}
+
+TEST_F(DiffCause, AChangeThatLeavesMuchIsTheNearest) {
+  render("right.png");
+  Picture wrong = readPicture(path("right.png"));
+  for (int y = 0; y < wrong.height; ++y)
+    for (int x = 0; x < wrong.width; ++x) {
+      Color& c = wrong.at(x, y);
+      c = c * ((x + y) % 2 == 0 ? 0.6 : 0.9);
+    }
+  writePicture(path("wrong.png"), wrong);
+  const std::string text = run({"diff", "right.png", "wrong.png"}).out;
+  EXPECT_TRUE(contains(
+      text,
+      "\n  nearest wrong.png is most like right.png with its values times 0.74; apart from that, RMSE "))
+      << text;
+  const json found = json::parse(run({"diff", "right.png", "wrong.png", "--format", "json"}).out);
+  EXPECT_EQ(found["cause"], nullptr);
+  EXPECT_NEAR(found["nearest"]["factor"].get<double>(), 0.74, 0.02);
 }
 
 }  // namespace

@@ -163,6 +163,10 @@ TEST_F(Parts, WhatCannotBeDividedIsRefused) {
                        "--subdivide compares each pixel"));
   EXPECT_TRUE(contains(run({"split", "ball.ray", "--parts", "9", "-w", "40"}).err,
                        "and cannot be divided into 9 parts"));
+  const Run picture = run({"ball.ray", "-w", "40", "--part", "1/2", "-o", "p.png"});
+  EXPECT_EQ(picture.code, 2);
+  EXPECT_TRUE(contains(picture.err, "--part: expected a name that ends in .part, found \"p.png\""))
+      << picture.err;
   EXPECT_TRUE(contains(run({"ball.ray", "-w", "40", "--part", "1/9"}).err, "choose at most 4 parts"));
   EXPECT_TRUE(
       contains(run({"ball.ray", "--part", "3/2"}).err, "--part: expected a whole number from 1 to 2"));

@@ -296,6 +296,11 @@ TEST(Inventor, TellsWhereAndWhat) {
 
 // --- other files --------------------------------------------------------------------------------------
 
+TEST(Inventor, AMissingFileIsReportedOnce) {
+  EXPECT_EQ(warningsOfFile("#Inventor V2.1 ascii\nFile { name \"no.iv\" } Cube { }"),
+            "2:1: no.iv is left out: cannot read \"no.iv\": No such file or directory");
+}
+
 TEST(Inventor, OtherFilesStandWhereTheyAreNamed) {
   const ReadScope allowed({test::sourceFolder() + "/tests/corpus"});
   Messages messages;

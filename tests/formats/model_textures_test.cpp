@@ -67,9 +67,22 @@ TEST_F(ObjTextures, DisplacementIsHeightsUnlessOthersAreGiven) {
   }
   for (const char* other : {"bump", "norm"}) {
     const Read both = read(std::string(other) + " a.tga\ndisp b.tga");
-    EXPECT_NE(both.warnings().find("the texture \"b.tga\" is not rendered yet"), std::string::npos) << other;
+    EXPECT_NE(both.warnings().find("the texture \"b.tga\" of disp is not rendered yet"), std::string::npos)
+        << other;
     EXPECT_EQ(both.texture("bump")->model.as<ImageMap>()->file.file.find("a.tga"), 0u);
   }
+}
+
+TEST_F(ObjTextures, OnePictureIsNamedForEachKeyword) {
+  EXPECT_NE(
+      read("map_Tr a.tga\nrefl a.tga\ndecal a.tga\nrefl a.tga")
+          .warnings()
+          .find(
+              "the textures \"a.tga\" of map_Tr, \"a.tga\" of refl and \"a.tga\" of decal are not rendered"),
+      std::string::npos);
+  const Read both = read("norm a.tga\nmap_Bump a.tga");
+  EXPECT_EQ(both.warnings(), "the texture \"a.tga\" of map_Bump is not rendered yet\n");
+  EXPECT_EQ(both.messages.all().at(0).place.line, 3);
 }
 
 TEST_F(ObjTextures, NamesOfOtherMachines) {
@@ -113,8 +126,9 @@ TEST_F(ObjTextures, PhysicalMaterialsArePrincipled) {
   EXPECT_EQ(maps.at("metallic", kBottomLeft), Color(1));
   EXPECT_EQ(maps.at("opacity", kTopRight), Color(0)) << "its alpha";
   EXPECT_NE(read("Pr 3").warnings().find("Pr: expected 0 to 1"), std::string::npos);
-  EXPECT_NE(read("Pr 0.3\nmap_Ns a.tga").warnings().find("the texture \"a.tga\" is not rendered yet"),
-            std::string::npos)
+  EXPECT_NE(
+      read("Pr 0.3\nmap_Ns a.tga").warnings().find("the texture \"a.tga\" of map_Ns is not rendered yet"),
+      std::string::npos)
       << "it has a roughness, and no exponent";
   EXPECT_EQ(read("Ns 30\nmap_Ns a.tga").warnings(), "");
   const Read pane = read("illum 6\nTf 1 0.5 1\nNi 1.45\nPr 0.25");

@@ -168,9 +168,9 @@ TEST(Ply, SaysWhatIsWrong) {
       {"ply\nelement vertex 4\nproperty int3 x\n",
        "3:1: expected a type, as in float or uchar, found \"int3\""},
       {"ply\nproperty float x\n", "2:1: expected an element before its properties"},
-      {"ply\nfoo\n",
+      {"ply\npropert\n",
        "2:1: expected a line of a PLY header (format, element, property, comment or end_header), found "
-       "\"foo\""},
+       "\"propert\""},
       {replaced(kSquare, "float y", "float why"), "0:0: expected vertices with x, y and z"},
       {replaced(kSquare, "face 1", "edge 1"),
        "0:0: expected an element \"face\" or \"tristrips\": this file holds points, and no surface"},
@@ -195,7 +195,7 @@ TEST(Ply, WarnsOfWhatIsRepaired) {
   EXPECT_EQ(warningsOfFile(replaced(kSquare, "face 1", "face 2") + "3 0 1 1\n"),
             "0:0: triangles without area are left out: 1");
   EXPECT_EQ(warningsOfFile(replaced(kSquare, "face 1", "face 2") + "2 0 1\n"),
-            "0:0: faces of fewer than 3 points are left out: 1");
+            "16:1: faces of fewer than 3 points are left out: 1");
 }
 
 TEST(Ply, ReadsALargeMesh) {

@@ -89,7 +89,8 @@ TEST(Probes, OfGltf) {
         Square().attribute("NORMAL", {1, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 3));
   const Square mapped = with("/materials/0/normalTexture", texture);
   p.add("TANGENT", mapped,
-        Square(mapped).attribute("TANGENT", {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, 4));
+        Square(mapped).attribute("TANGENT", {0, 1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1, 0, 1, 0, -1}, 4),
+        "tangents that do not lie along the texture coordinates are not shown: triangles: 2");
   p.add("TEXCOORD_0", Square(), Square().attribute("TEXCOORD_0", {0, 0, 2, 0, 2, 2, 0, 2}, 2));
   const Square set1 = with(pbr + "baseColorTexture", {{"index", 0}, {"texCoord", 1}})
                           .attribute("TEXCOORD_1", {0, 0, 1, 0, 1, 1, 0, 1}, 2);
@@ -450,6 +451,22 @@ TEST(Probes, OfGltfExtensions) {
         "KHR_animation_pointer", "KHR_xmp_json_ld", "EXT_lights_image_based", "MSFT_lod"})
     p.set(name, "/extensionsUsed", {name}, name);
   expectProbes(knownGltfExtensionFields(), p.all, false, SceneProbes("probe.gltf"));
+}
+
+TEST(GltfTangents, ThoseOfTheTextureCoordinatesAreNotReported) {
+  Square square;
+  square.material()["normalTexture"] = {{"index", 0}};
+  const auto warnings = [&](const std::vector<float>& tangent) {
+    std::vector<float> all;
+    for (int i = 0; i < 4; ++i) all.insert(all.end(), tangent.begin(), tangent.end());
+    Messages messages;
+    readScene("a.gltf", Square(square).attribute("TANGENT", all, 4).text(), messages);
+    return messages.all().size();
+  };
+  EXPECT_EQ(warnings({1, 0, 0, -1}), 0u);
+  EXPECT_EQ(warnings({0.8f, 0.5f, 0, -1}), 0u) << "a mean over faces";
+  EXPECT_EQ(warnings({1, 0, 0, 1}), 1u) << "of the other handedness";
+  EXPECT_EQ(warnings({0, 0, 0, 0}), 1u);
 }
 
 }  // namespace

@@ -62,6 +62,25 @@ TEST(Probes, OfInventor) {
   for (const char* node : {"Separator", "TransformSeparator", "Selection", "Annotation", "WWWAnchor"})
     holder(node);
   n.add("Group", ball, "Group { Translation { translation 1 0 0 } } Sphere { }");
+  const std::string left = "transform Translation { translation 1 0 0 }";
+  n.add("SceneKit", ball,
+        "SceneKit { childList NodeKitListPart { containerNode Group { Cube { } } } } " + ball);
+  n.add(
+      "NodeKitListPart", ball,
+      "SeparatorKit { childList NodeKitListPart { containerTypeName \"Group\" containerNode Group { Cube { } "
+      "} } } " +
+          ball);
+  n.add("SeparatorKit", two, "SeparatorKit { childList Group { Sphere { } } " + left + " } Cube { }");
+  n.add("ShapeKit", ball + " Translation { translation 1 0 0 } Cube { }",
+        ball + " ShapeKit { " + left + " }");
+  n.all.back().same = n.all.back().without;
+  n.all.back().without = "#Inventor V2.1 ascii\n" + ball;
+  n.add("WrapperKit", two, "WrapperKit { contents Sphere { } " + left + " } Cube { }");
+  n.add("LightKit", ball, "LightKit { light PointLight { location 0 0 9 } } " + ball);
+  n.add("CameraKit", ball, "CameraKit { camera PerspectiveCamera { position 0 0 9 } } " + ball);
+  n.add("AppearanceKit", ball, "AppearanceKit { material Material { diffuseColor 1 0 0 } } " + ball);
+  n.add("draggers, manipulators", ball, ball + " TrackballDragger { rotation 0 1 0 0 }",
+        "\"TrackballDragger\" is not rendered");
   n.add("Switch.whichChild", "Switch { " + two + " }", "Switch { whichChild 1 " + two + " }");
   n.add("LOD", "Cube { }", "LOD { range [ 5 ] " + two + " }");
   n.add("LevelOfDetail", "Cube { }", "LevelOfDetail { screenArea 5 " + two + " }");

@@ -329,6 +329,43 @@ TEST(Probes, OfTga) {
 
 // --- HDR ---------------------------------------------------------------------------------------------------
 
+TEST(Probes, OfPpm) {
+  const std::string grey = "P5\n2 1\n255\n@\x80", colors = "P6\n1 1\n255\n@@\x80";
+  const auto pam = [](const std::string& depth, const std::string& more, const std::string& samples) {
+    return "P7\nWIDTH 1\nHEIGHT 1\nDEPTH " + depth + "\n" + more + "ENDHDR\n" + samples;
+  };
+  const std::string pam1 = pam("1", "MAXVAL 255\n", "@");
+  expectPictures(
+      knownPpmFields(),
+      {{"P1", grey, "P1\n2 2\n01 10\n", "", "P2 2 2 1 1 0 0 1"},
+       {"P2", grey, "P2\n2 1\n255\n128 64\n", "", "P5 2 1 255 \x80@"},
+       {"P3", colors, "P3\n1 1\n255\n64 128 64\n", "", "P6 1 1 255 @\x80@"},
+       {"P4", grey, raw("P4\n9 1\n\x55\x80"), "", "P2 9 1 1 1 0 1 0 1 0 1 0 0"},
+       {"P5", grey, "P5\n2 1\n255\n\x80@"},
+       {"P6", colors, "P6\n1 1\n255\n\x80@@"},
+       {"maximum", grey, "P5\n2 1\n128\n@\x80"},
+       {"# comment", grey, "P5\n# a row\n2 1\n255\n@\x80"},
+       {"P7: WIDTH, HEIGHT, DEPTH", pam1, pam("3", "MAXVAL 255\n", "@\x80\x20"), "", "P6 1 1 255 @\x80 "},
+       {"P7: MAXVAL", pam1, pam("1", "MAXVAL 128\n", "@")},
+       {"P7: TUPLTYPE", pam1, pam("1", "MAXVAL 255\nTUPLTYPE GRAYSCALE\n", "@")},
+       {"P7: TUPLTYPE of another kind", pam1, pam("4", "MAXVAL 255\nTUPLTYPE CMYK\n", "@@@@"), "found CMYK"},
+       {"P7: depths 2 and 4, alpha", pam1, pam("4", "MAXVAL 255\nTUPLTYPE RGB_ALPHA\n", "@@@@")},
+       {"several pictures", grey, grey + grey, "the first of several pictures"}});
+}
+
+TEST(Probes, OfPfm) {
+  const std::string half = littleFloat(0.5), whole = littleFloat(1);
+  const std::string big{half.rbegin(), half.rend()};
+  const auto pfm = [](const std::string& samples, const std::string& scale = "-1", const char* kind = "Pf",
+                      const char* size = "1 1") {
+    return std::string(kind) + "\n" + size + "\n" + scale + "\n" + samples;
+  };
+  expectPictures(knownPfmFields(), {{"PF", pfm(half), pfm(half + whole + half, "-1", "PF")},
+                                    {"Pf", pfm(half), pfm(half + whole, "-1", "Pf", "1 2")},
+                                    {"scale: sign", pfm(whole), pfm(big, "1.0"), "", pfm(half)},
+                                    {"scale: size", pfm(half), pfm(half, "-2"), "its scale of 2"}});
+}
+
 TEST(Probes, OfHdr) {
   const std::string red = raw("\x80\0\0\x81"), green = raw("\0\x80\0\x81");
   const auto hdr = [&](const std::string& lines, const std::string& size = "-Y 1 +X 2",

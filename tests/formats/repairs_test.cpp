@@ -52,6 +52,23 @@ TEST(Repairs, ObjLinesAsOthersWriteThem) {
   EXPECT_EQ(Read("a.obj", "V 0 0 0 # first\nV 1 0 0\nV 0 1 0\nF 1 2 3\n").triangles(), 1u);
   EXPECT_EQ(Read("a.obj", "f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").triangles(), 1u)
       << "points that come later";
+  const Read later("a.obj",
+                   "f 1/1/1 2/2/1 3/3/1\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\n");
+  EXPECT_EQ(later.warnings, "");
+  const auto& mesh = *later.scene.objects.at(0).shape.as<Mesh>()->data;
+  EXPECT_EQ(mesh.uvs.size(), 3u) << "uv that come later";
+  EXPECT_EQ(mesh.normals.size(), 3u) << "normals that come later";
+}
+
+TEST(Repairs, TheFirstFaceOfAnObjIsNamedThatLacksAPoint) {
+  const Read read("a.obj", "f 1 2 9\n" + kSquare + "f 1 2 8\nf -1 -2 -9\nf 1 2 3\n");
+  EXPECT_TRUE(read.warns("1:7: the face uses point 9, but there are 4 points; it is left out (3 times"))
+      << read.warnings;
+  const Read smooth("a.obj", "s 1\nf 1 2 3\n" + kSquare + "s 2\nf 1 2 3\n");
+  EXPECT_TRUE(smooth.warns("1:1: smoothing groups")) << smooth.warnings;
+  const Read normals("a.obj", "f 1//1 2 3\n" + kSquare + "f 1//1 2 3\n");
+  EXPECT_TRUE(normals.warns("1:3: normals or uv that the file does not have are left out (2 times"))
+      << normals.warnings;
 }
 
 TEST(Repairs, AFaceOfAnObjCostsItself) {
@@ -91,6 +108,17 @@ TEST(Repairs, PlyElementsInAnyOrderAndFacesThatAreLost) {
                  "0 0 1 0\n3 0 1 2\n")
                 .triangles(),
             1u);
+}
+
+TEST(Repairs, PlyHeadersMayNameTheirProgramWithoutComment) {
+  const std::string rest =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const Read read("a.ply", "ply\nformat ascii 1.0\nCreated by hand\n" + rest);
+  EXPECT_EQ(read.triangles(), 1u) << read.error;
+  EXPECT_EQ(read.warnings, "3:1: a line of the header is no comment, and is ignored: \"Created\"\n");
+  const Read misspelt("a.ply", "ply\nformat ascii 1.0\nelemant edge 0\n" + rest);
+  EXPECT_EQ(misspelt.error.find("3:1: expected a line of a PLY header"), 0u) << misspelt.error;
 }
 
 TEST(Repairs, PlyFacesHaveColoursAndUvOfTheirOwn) {
@@ -149,6 +177,17 @@ TEST(Repairs, ABrokenFacetOfStlCostsNoOther) {
     EXPECT_NE(Read("a.stl", "solid a\n" + good + broken.substr(0, broken.size() - 12)).error, "")
         << "cut off";
   }
+}
+
+TEST(Repairs, FlawsOfStlHaveALine) {
+  const auto facet = [](const std::string& last) {
+    return "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex " + last +
+           "\nendloop\nendfacet\n";
+  };
+  const Read flat("a.stl", "solid\n" + facet("0 1 0") + facet("2 0 0") + "endsolid\n");
+  EXPECT_EQ(flat.warnings, "9:1: triangles without area are left out: 1\n");
+  const Read turned("a.stl", "solid\n" + facet("0 1 0") + facet("0 -1 0") + "endsolid\n");
+  EXPECT_EQ(turned.warnings.find("9:1: facets whose corners"), 0u) << turned.warnings;
 }
 
 TEST(Repairs, StlOfAnySpellingIsTurnedAsItsNormalsSay) {

@@ -43,11 +43,14 @@ constexpr PictureChange::Channels kChannelOrders[] = {
 constexpr double kLevel = 1.0 / 255;
 constexpr int kLargestBlock = 8, kMostBlocks = 128;
 constexpr std::size_t kLeastBlocks = 25;
-constexpr double kDecisive = 0.25;         // the share of the difference that may be left
-constexpr double kDecisiveShift = 0.75;    // the same for a shift
-constexpr double kOpposite = 1.25;         // the share that the opposite shift must leave at least
-constexpr double kLeftOfContrast = 0.1;    // the share of the contrast that may be left
-constexpr double kWorthwhile = 1.0 / 200;  // the least share of the contrast that needs a cause
+constexpr double kDecisive = 0.25;          // the share of the difference that may be left
+constexpr double kDecisiveShift = 0.75;     // the same for a shift
+constexpr double kMostLeftOfCause = 0.5;    // the share of the pixels' difference that a cause may leave
+constexpr double kMostLeftOfHalves = 0.75;  // the same for a shift of half a pixel, which blurs edges
+constexpr double kSharper = 0.5;            // the share that a sharper curve may leave
+constexpr double kOpposite = 1.25;          // the share that the opposite shift must leave at least
+constexpr double kLeftOfContrast = 0.1;     // the share of the contrast that may be left
+constexpr double kWorthwhile = 1.0 / 200;   // the least share of the contrast that needs a cause
 constexpr double kLeastContrast = 2 * kLevel;
 constexpr double kMiddles = 1e-4;  // chooses among changes that rounding alone cannot tell apart
 constexpr double kMostBrightening = 32, kLeastBrightening = 1.005;
@@ -421,7 +424,30 @@ ChangeFit withBestCurve(const ChangeFit& shiftedOne, const LoadedPicture& refere
   return best;
 }
 
+bool hasHalves(const PictureChange& change) {
+  return std::floor(change.right) != change.right || std::floor(change.down) != change.down;
+}
+
 }  // namespace
+
+PictureChange withSharpestCurve(const PictureChange& change, const LoadedPicture& reference,
+                                const LoadedPicture& test) {
+  if (change.curve == Curve::none) return change;
+  PictureChange best = change;
+  double least = kSharper * rmseAfter(change, reference, test);
+  for (const PictureChange& curve : curvesBetween(reference, test)) {
+    if (curve.curve == Curve::none || least == 0) continue;
+    PictureChange other = change;
+    other.curve = curve.curve;
+    other.darkens = curve.darkens;
+    other.factor = curve.factor;
+    if (const double left = rmseAfter(other, reference, test); left < least) {
+      least = left;
+      best = other;
+    }
+  }
+  return best;
+}
 
 bool ChangeFit::explains() const { return contrast > 0 && left <= kLeftOfContrast * contrast; }
 bool ChangeFit::isWorthACause() const { return left > kWorthwhile * contrast; }
@@ -455,7 +481,16 @@ std::array<ChangeFit, 4> bestChanges(const LoadedPicture& reference, const Loade
   return best;
 }
 
+std::optional<Color> onlyColor(const Picture& picture) {
+  if (picture.pixels.empty()) return {};
+  const Color& first = picture.pixels.front();
+  const bool isPlain = std::all_of(picture.pixels.begin(), picture.pixels.end(),
+                                   [&](const Color& color) { return color == first; });
+  return isPlain ? std::optional(first) : std::nullopt;
+}
+
 double rmseAfter(const PictureChange& change, const LoadedPicture& reference, const LoadedPicture& test) {
+  if (!fits(change.turn, reference.picture, test.picture)) return std::numeric_limits<double>::infinity();
   const double left = leftBetween(CurvedPair(reference, test, change), change);
   return reference.levels && test.levels ? 255 * left : left;
 }
@@ -471,11 +506,14 @@ std::optional<DifferenceCause> causeOfDifference(const LoadedPicture& reference,
   if (isShifted && chosen.change.curve != Curve::none) chosen = withBestCurve(chosen, reference, test);
   if (chosen.change.parts() == 0 || !chosen.explains()) return std::nullopt;
 
-  const double rmse = rmseAfter(chosen.change, reference, test);
-  const bool sameSize =
-      reference.picture.width == test.picture.width && reference.picture.height == test.picture.height;
-  if (sameSize && !(rmse < rmseAfter({}, reference, test))) return std::nullopt;
-  return DifferenceCause{chosen.change, rmse};
+  DifferenceCause cause;
+  cause.change = withSharpestCurve(chosen.change, reference, test);
+  cause.before = rmseAfter({}, reference, test);
+  cause.rmse = rmseAfter(cause.change, reference, test);
+  const double mostLeft = hasHalves(cause.change) ? kMostLeftOfHalves : kMostLeftOfCause;
+  cause.isNearest = cause.rmse > mostLeft * cause.before;
+  if (!(cause.rmse < cause.before) || cause.rmse > kMostLeftOfNearest * cause.before) return std::nullopt;
+  return cause;
 }
 
 }  // namespace trace

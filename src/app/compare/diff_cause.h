@@ -64,14 +64,28 @@ bool areComparable(const LoadedPicture& reference, const LoadedPicture& test);
 std::array<ChangeFit, 4> bestChanges(const LoadedPicture& reference, const LoadedPicture& test);
 
 /// The root mean square that is left of the difference after the change, in the unit of the difference.
-/// Rounding to levels and the pixels at the border do not count. Precondition: areComparable().
+/// Rounding to levels and the pixels at the border do not count. Infinite if the change makes another size.
+/// Precondition: areComparable().
 double rmseAfter(const PictureChange& change, const LoadedPicture& reference, const LoadedPicture& test);
+
+/// The share of the pixels' RMSE that the nearest change or variant may leave.
+constexpr double kMostLeftOfNearest = 0.75;
+
+/// The colour of all pixels of a picture; nothing if there are several.
+std::optional<Color> onlyColor(const Picture& picture);
+
+/// The change with the curve that leaves least of the pixels, if that leaves less than half: curves that are
+/// nearly alike cannot be told apart by blocks. Precondition: areComparable().
+PictureChange withSharpestCurve(const PictureChange& change, const LoadedPicture& reference,
+                                const LoadedPicture& test);
 
 struct DifferenceCause {
   PictureChange change;
   /// The error that is left when the change is undone, beyond that of rounding to levels; in the unit of the
   /// difference. The pixels at the border do not count.
   double rmse = 0;
+  double before = 0;       ///< the same error with nothing undone; infinite if the sizes differ
+  bool isNearest = false;  ///< it leaves more than a cause may
 };
 
 /// The cause of the difference of two pictures, if one change of the whole picture explains it. A level
@@ -84,18 +98,24 @@ struct DifferenceCause {
 /// difference. Interpolation cannot restore the edges of a shifted picture, so a shift is added if it leaves
 /// at most three quarters and the opposite shift would leave five quarters. The change is named if it leaves
 /// at most a tenth of the contrast, which is the smaller standard deviation of the blocks of the two
-/// pictures. No cause is named for a picture of one colour, for fewer than 25 blocks, or for a difference
-/// below a two-hundredth of the contrast.
+/// pictures. In the end at most half of the pixels' RMSE is left, or three quarters after a shift of half a
+/// pixel; one that leaves more, but at most three quarters, is the nearest. No cause is named for a picture
+/// of one colour, for fewer than 25 blocks, or for a difference below a two-hundredth of the contrast.
 ///
 /// The sizes must be equal, or those of a picture turned by 90 degrees; else there is no cause. Values that
 /// are not finite count as 0. Throws Error(Fault::limit) if the time is over.
 std::optional<DifferenceCause> causeOfDifference(const LoadedPicture& reference, const LoadedPicture& test);
 
-/// One sentence without a full stop: "mine.png is ref.png upside down; nothing else differs beyond rounding".
+/// One sentence without a full stop: "mine.png is ref.png upside down; nothing else differs beyond rounding",
+/// "mine.png is most like ref.png with its values times 0.7; apart from that, RMSE 5 of 9 levels".
 std::string causeText(const DifferenceCause& cause, const std::string& reference, const std::string& test,
                       std::string_view unit);
 
-/// The rest of a difference in words: "nothing else differs beyond rounding".
-std::string leftText(double rmse, std::string_view unit);
+/// "mine.png is black: all its pixels are 0".
+std::string onlyColorText(const Color& color, const std::string& name, std::string_view unit);
+
+/// The rest of a difference in words: "nothing else differs beyond rounding", "apart from that, RMSE 3.1 of 9
+/// levels". `before` is the whole difference, infinite if it is not known.
+std::string leftText(double rmse, double before, std::string_view unit);
 
 }  // namespace trace

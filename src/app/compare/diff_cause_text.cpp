@@ -66,12 +66,21 @@ std::string PictureChange::text() const {
 
 std::string causeText(const DifferenceCause& cause, const std::string& reference, const std::string& test,
                       std::string_view unit) {
-  return test + " is " + reference + " " + cause.change.text() + "; " + leftText(cause.rmse, unit);
+  return test + (cause.isNearest ? " is most like " : " is ") + reference + " " + cause.change.text() + "; " +
+         leftText(cause.rmse, cause.before, unit);
 }
 
-std::string leftText(double rmse, std::string_view unit) {
+std::string onlyColorText(const Color& color, const std::string& name, std::string_view unit) {
+  if (isBlack(color)) return name + " is black: all its pixels are 0";
+  const auto one = [&](double value) { return roundedText(unit == "levels" ? 255 * value : value, 4); };
+  return name + " is of one colour: all its pixels are (" + one(color.r) + " " + one(color.g) + " " +
+         one(color.b) + ")";
+}
+
+std::string leftText(double rmse, double before, std::string_view unit) {
   if (rmse == 0) return "nothing else differs beyond rounding";
-  return "apart from that, RMSE " + roundedText(rmse, 3) + " " + std::string(unit);
+  return "apart from that, RMSE " + roundedText(rmse, 3) + " " +
+         (std::isfinite(before) ? "of " + roundedText(before, 3) + " " : "") + std::string(unit);
 }
 
 }  // namespace trace

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/budget.h"
@@ -46,17 +48,27 @@ PictureDifference difference(LoadedPicture reference, LoadedPicture test, const 
   d.levels = d.reference.levels && d.test.levels;
   d.tolerance = options.tolerance;
   const Picture &a = d.reference.picture, &b = d.test.picture;
+  std::optional<BudgetScope> late;  // without FLIP the numbers cost less than reading the pictures
+  if (options.flipMayLack) late.emplace(nullptr);
   if (d.levels)
     d.numbers = compare(toBytes(a, Rounding::nearest), toBytes(b, Rounding::nearest),
                         static_cast<int>(std::min(options.tolerance, 255.0)));
   else
     d.numbers = compare(a, b, options.tolerance);
+  late.reset();
   if (!d.numbers.sameSize) return d;
   if (d.numbers.identical)
     d.flipErrors.assign(a.pixels.size(), 0);
   else
-    d.flipErrors = flipErrors(a, b, options.pixelsPerDegree);
-  d.flip = mean(d.flipErrors);
+    try {
+      lookAtBudget();
+      d.flipErrors = flipErrors(a, b, options.pixelsPerDegree);
+    } catch (const Error& error) {
+      if (error.fault() != Fault::limit || !options.flipMayLack) throw;
+      d.stopped = error.messages().front().what;
+      d.flipErrors.clear();
+    }
+  d.flip = d.stopped.empty() ? mean(d.flipErrors) : std::numeric_limits<double>::quiet_NaN();
   return d;
 }
 

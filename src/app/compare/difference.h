@@ -29,6 +29,7 @@ struct PictureDifference {
   Comparison numbers;
   std::vector<double> flipErrors;  ///< flip errors of each pixel; empty when the sizes differ
   double flip = 1;                 ///< their mean
+  std::string stopped{};           ///< why there is no FLIP; "" if there is
 
   std::string_view unit() const { return levels ? "levels" : "values"; }
   Pictures pictures() const { return {reference.picture, test.picture, flipErrors}; }
@@ -36,7 +37,8 @@ struct PictureDifference {
 
 struct DifferenceOptions {
   double tolerance = 0;
-  double pixelsPerDegree;  ///< pixels per degree of the eye that FLIP stands for
+  double pixelsPerDegree;    ///< pixels per degree of the eye that FLIP stands for
+  bool flipMayLack = false;  ///< if the time is over, FLIP is left out and the other numbers are returned
 };
 PictureDifference difference(LoadedPicture reference, LoadedPicture test, const DifferenceOptions& options);
 

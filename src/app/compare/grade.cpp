@@ -6,9 +6,8 @@
 #include <new>
 #include <set>
 
-#include "app/compare/diff_cause.h"
+#include "app/compare/causes.h"
 #include "app/compare/grade_files.h"
-#include "app/compare/scene_cause.h"
 #include "app/session/session.h"
 #include "base/budget.h"
 #include "base/files/read_scope.h"
@@ -75,20 +74,54 @@ void addPictures(GradedPair& pair, const PictureDifference& d, double magnify) {
 
 /// The parts of a change by the names that a rubric has for them.
 std::vector<std::string> mistakesOf(const PictureChange& change) {
-  using Curve = PictureChange::Curve;
   std::vector<std::string> names;
-  const bool scales = change.curve == Curve::scale || change.curve == Curve::lightScale;
+  const bool scales =
+      change.curve == PictureChange::Curve::scale || change.curve == PictureChange::Curve::lightScale;
   if (!change.turn.text.empty()) names.emplace_back("flipped");
   if (!change.channels.text.empty()) names.emplace_back("channels");
-  if (change.curve != Curve::none) names.emplace_back(scales ? "brightness" : "gamma");
+  if (change.curve != PictureChange::Curve::none) names.emplace_back(scales ? "brightness" : "gamma");
   if (change.right != 0 || change.down != 0) names.emplace_back("shift");
   return names;
+}
+
+/// Names for what is plain to see.
+std::vector<std::string> plainMistakes(const Causes& causes) {
+  if (causes.testColor) return {isBlack(*causes.testColor) ? "black" : "one colour"};
+  if (causes.isNegative) return {"negative"};
+  if (causes.isGrey) return {"grey"};
+  return {};
+}
+
+/// The one sentence that says most, and the mistakes of a cause that explains the picture.
+void addCause(GradedPair& pair, const Causes& causes, std::string_view unit) {
+  const std::string reference = "the reference", test = "the picture";
+  const std::vector<std::string> notes = causes.notes(reference, test, unit);
+  if (causes.picture) {
+    pair.cause = causeText(*causes.picture, reference, test, unit);
+    if (!causes.picture->isNearest) pair.mistakes = mistakesOf(causes.picture->change);
+  } else if (causes.scene) {
+    const SceneCauses& scene = *causes.scene;
+    const std::vector<std::string> sentences = sceneSentences(scene, reference, test);
+    const bool isNamed = scene.test && !scene.test->text().empty();
+    if (isNamed) {
+      pair.mistakes = scene.test->variants;
+      for (std::string& mistake : mistakesOf(scene.test->change)) pair.mistakes.push_back(std::move(mistake));
+    }
+    if (isNamed || scene.nearest)
+      pair.cause = sentences.front();
+    else if (scene.pixel && notes.empty())
+      pair.cause = sentences.back();
+  }
+  if (!pair.cause.empty() || notes.empty()) return;
+  pair.cause = notes.back();
+  pair.mistakes = plainMistakes(causes);
 }
 
 /// In words that follow on the name of the pair.
 std::string problemOf(const Error& error) {
   constexpr std::string_view kWord = "error: ";
-  const std::string text = error.what();
+  std::string text = error.what();
+  text.erase(text.find_last_not_of('\n') + 1);
   if (text.starts_with(kWord)) return text.substr(kWord.size());
   return error.fault() == Fault::scene ? "cannot be read: " + text : text;
 }
@@ -100,8 +133,7 @@ void compareInto(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
   const PictureDifference d =
       difference(loadPicture(reference),
                  task.renderScenes ? renderedScene(test, task, inputs) : loadPicture(test), task.difference);
-  judge(pair, d, task.limits);
-  addSceneCause(pair, d, task, inputs);
+  judge(pair, d, task, inputs);
   if (task.keepsPictures) addPictures(pair, d, task.magnify);
 }
 
@@ -208,14 +240,14 @@ LoadedPicture renderedScene(const std::string& scene, const GradeTask& task, Inp
           true};
 }
 
-void judge(GradedPair& pair, const PictureDifference& d, const std::vector<Limit>& limits) {
+void judge(GradedPair& pair, const PictureDifference& d, const GradeTask& task, InputFiles& inputs) {
   pair.unit = d.unit();
   pair.width = d.reference.picture.width;
   pair.height = d.reference.picture.height;
-  pair.verdict = !d.numbers.sameSize   ? Verdict::sizesDiffer
-                 : d.numbers.identical ? Verdict::identical
-                 : within(d, limits)   ? Verdict::within
-                                       : Verdict::beyond;
+  pair.verdict = !d.numbers.sameSize      ? Verdict::sizesDiffer
+                 : d.numbers.identical    ? Verdict::identical
+                 : within(d, task.limits) ? Verdict::within
+                                          : Verdict::beyond;
   if (d.numbers.sameSize)
     for (const Metric& metric : metrics()) pair.values.push_back(metric.value(d));
   else
@@ -223,10 +255,12 @@ void judge(GradedPair& pair, const PictureDifference& d, const std::vector<Limit
                    std::to_string(d.test.picture.height) + ", the reference " + std::to_string(pair.width) +
                    "x" + std::to_string(pair.height);
   if (passes(pair.verdict)) return;
-  const auto cause = causeOfDifference(d.reference, d.test);
-  if (!cause) return;
-  pair.cause = causeText(*cause, "the reference", "the picture", d.unit());
-  pair.mistakes = mistakesOf(cause->change);
+  const std::string scene = sceneOf(task, pair.name);
+  const SceneQuestion question{.file = scene, .choices = task.choices, .strict = task.strict};
+  const Causes causes = causesOf(d, scene.empty() ? nullptr : &question);
+  if (!causes.stopped.empty()) lookAtBudget();  // this pair is not reached
+  if (causes.scene) inputs = causes.scene->inputs;
+  addCause(pair, causes, d.unit());
 }
 
 std::string sceneOf(const GradeTask& task, const std::string& reference) {
@@ -237,25 +271,6 @@ std::string sceneOf(const GradeTask& task, const std::string& reference) {
     if (const std::string stem = lowerCase(stemOf(file)); stem == wanted && found.empty())
       found = (task.scenes / file).string();
   return found;
-}
-
-std::string addSceneCause(GradedPair& pair, const PictureDifference& d, const GradeTask& task,
-                          InputFiles& inputs) {
-  const std::string scene = sceneOf(task, pair.name);
-  if (scene.empty() || passes(pair.verdict) || !d.numbers.sameSize) return scene;
-  const auto causes = sceneCauses({.file = scene, .choices = task.choices, .strict = task.strict},
-                                  d.reference, d.test, {d.numbers.worstX, d.numbers.worstY});
-  if (!causes) return scene;
-  inputs = causes->inputs;
-  const bool isNamed = causes->test && !causes->test->variants.empty();
-  if (isNamed) {  // it says more than a change of the whole picture
-    pair.cause = sceneSentences(*causes, "the reference", "the picture").front();
-    pair.mistakes = mistakesOf(causes->test->change);
-    pair.mistakes.insert(pair.mistakes.begin(), causes->test->variants.begin(), causes->test->variants.end());
-  } else if (pair.cause.empty() && causes->pixel) {
-    pair.cause = sceneSentences(*causes, "the reference", "the picture").back();
-  }
-  return scene;
 }
 
 void judgeOrNote(GradedPair& pair, const std::function<void()>& compare) {

@@ -36,7 +36,7 @@ struct GradedPair {
   Verdict verdict = Verdict::missing;
   std::string problem;  ///< why it could not be compared; may be several lines
   std::string cause;    ///< one sentence, if one change of the whole picture explains a failure
-  std::vector<std::string> mistakes{};  ///< the parts of that cause: "flipped", "gamma" (mistakeNames())
+  std::vector<std::string> mistakes{};  ///< the parts of that cause: "flipped", "gamma", "black"
   std::string unit;                     ///< "levels" or "values"
   int width = 0, height = 0;
   std::vector<double> values;    ///< values of metrics(), in their order; empty if it could not be compared
@@ -57,13 +57,9 @@ struct Grades {
 /// Throws Error when a folder cannot be read or there is no reference picture.
 Grades grade(const GradeTask& task);
 
-/// Fills in the comparison of two pictures: numbers, verdict and, of a failure, the cause.
-void judge(GradedPair& pair, const PictureDifference& difference, const std::vector<Limit>& limits);
-
-/// Adds what variants of the scene show of a failure to the cause, if a scene of the task has the name of the
-/// reference. Returns that scene; "" for none. `inputs` receives the files that it read.
-std::string addSceneCause(GradedPair& pair, const PictureDifference& difference, const GradeTask& task,
-                          InputFiles& inputs);
+/// Fills in the comparison of two pictures: numbers, verdict and, of a failure, the cause, also by variants
+/// of the scene if one of the task has the name of the reference. `inputs` receives the files that it read.
+void judge(GradedPair& pair, const PictureDifference& difference, const GradeTask& task, InputFiles& inputs);
 
 /// The scene in the folder of scenes that has the name of the reference; "" if there is none.
 std::string sceneOf(const GradeTask& task, const std::string& reference);

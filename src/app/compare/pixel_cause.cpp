@@ -75,8 +75,9 @@ class PixelTerms {
              const std::string& verb = "brings") {
     sum(causes, "lacks " + what + ", which " + verb, family, brings * -1);
   }
-  void lacksAll(const std::string& what, const std::string& family, const Color& brings) {
-    sum(totals_, "lacks all " + what + ", which brings", family, brings * -1);
+  void lacksAll(const std::string& what, const std::string& family, const Color& brings,
+                const std::string& verb = "brings") {
+    sum(totals_, "lacks all " + what + ", which " + verb, family, brings * -1);
   }
   void hasTwice(const std::string& what, const std::string& family, const Color& brings) {
     sum(causes, "has " + what + " twice, which brings", "twice " + family, brings);
@@ -120,7 +121,7 @@ class PixelTerms {
       const Color share = quotient(highlight, arriving.scattered(term.light->scatter));
       if (!isBlack(share)) {
         lacks("the highlight of " + name + " on " + here + way, "highlight", brings * share);
-        lacksAll("highlights", "highlight", brings * share);
+        lacksAll("highlights", "highlight", brings * share, "bring");
       }
     }
     const Color taken = weight * term.factor * (Color(1) + term.value * -1);
@@ -146,7 +147,7 @@ class PixelTerms {
       lacks("the " + family + " in " + here + way, family, brings);
       byDepth_[rayAt(tree, term.ray).depth] += brings;
       if (term.kind == Term::Kind::reflection && !comesBy(RayKind::reflection, ray, tree))
-        lacksAll("reflections", family, brings);
+        lacksAll("reflections", family, brings, "bring");
       if (term.kind == Term::Kind::refraction && !comesBy(RayKind::refraction, ray, tree))
         lacksAll("refraction", family, brings);
       return;

@@ -12,6 +12,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/compare/scene_values.h"
 #include "app/compare/scene_variants.h"
 #include "app/session/denoising.h"
 #include "app/session/session.h"
@@ -27,8 +28,12 @@ namespace {
 
 constexpr int kMostAcross = 96, kFewestAcross = 24;  // traced pixels on the longer side
 constexpr double kMostRays = 30000;                  // camera rays of a variant
-constexpr double kHalfHelps = 0.75;           // the share of the difference that a half of a pair may leave
+constexpr double kHalfHelps = 0.75;   // the share of the difference that a half of a pair may leave
+constexpr double kMatchLeaves = 0.5;  // the share of the pixels' difference that a match may leave
+constexpr double kExact = 0.1;        // the share that a variant may leave where it is not sought further
+constexpr double kSeenLevels = 1;     // a difference in levels that an eye may see
 constexpr std::size_t kMostVariantParts = 5;  // two variants, and the changes of a picture
+constexpr std::size_t kMostAlike = 3;         // other variants of the same picture that are named
 constexpr std::size_t kOtherPixels = 6;       // that confirm what the worst pixel says
 
 /// So many places from 0 to pixels - 1, evenly and symmetrically.
@@ -93,10 +98,24 @@ LoadedPicture levelsOf(const Picture& light, const Settings& settings) {
   return {fromBytes(toBytes(developed(light, developmentOf(settings)), settings.rounding)), true};
 }
 
-/// A scene with variants, and what it shows.
+/// A scene with variants, each upon those before, and what it shows.
 struct TriedVariants {
-  std::vector<std::string> names;
+  std::vector<SceneVariant> variants;
   VariantShot shot;
+  /// bestChanges() to the reference and to the test, once they are known.
+  mutable std::optional<std::array<ChangeFit, 4>> toReference{}, toTest{};
+
+  std::vector<std::string> names() const {
+    std::vector<std::string> texts;
+    for (const SceneVariant& variant : variants) texts.push_back(variant.text);
+    return texts;
+  }
+  /// These variants begin with those of the other.
+  bool isUpon(const TriedVariants& other) const {
+    return variants.size() >= other.variants.size() &&
+           std::equal(other.variants.begin(), other.variants.end(), variants.begin(),
+                      [](const auto& a, const auto& b) { return a.text == b.text; });
+  }
 };
 
 /// A scene to which variants are added.
@@ -147,54 +166,74 @@ class VariantSearch {
 
   std::optional<SceneCauses> run(const PixelPlace& worst) {
     lattice_.emplace(session_.size(), samplesOf(session_.settings()));
-    const bool exchanged =
+    exchanged_ =
         test_.picture.width != reference_.picture.width || test_.picture.height != reference_.picture.height;
     sampledReference_ = {lattice_->of(reference_.picture), reference_.levels};
-    sampledTest_ = {lattice_->of(test_.picture, exchanged), test_.levels};
+    sampledTest_ = {lattice_->of(test_.picture, exchanged_), test_.levels};
     if (!areComparable(sampledReference_, sampledTest_)) return {};
     result_.pixels = sampledReference_.picture.pixels.size();
-    SceneStart start{session_.scene(), session_.settings(), {}};
-    start.tried.shot = shot(start.scene, start.settings);
-    tried_.push_back(start.tried);
-    VariantFit ofTest;
+    start_ = {session_.scene(), session_.settings(), {}};
     try {
-      addVariants(start);
-      const VariantFit ofReference = best(sampledReference_, {});
-      if (ofReference.explains()) result_.reference = matchOf(ofReference, sampledReference_);
-      ofTest = best(sampledTest_, {});
-      const bool isPlain = ofTest.explains() && ofTest.parts == 0;
-      if (ofReference.explains() && ofReference.fit.change.parts() == 0 && ofReference.parts > 0 &&
-          !isPlain) {
-        start = startOf(*ofReference.tried);
-        addVariants(start);
-        if (const VariantFit other = best(sampledTest_, start.tried.names);
-            other.explains() || !ofTest.explains())
-          ofTest = other;
-      }
-      if (!ofTest.explains() || (ofTest.parts > 0 && ofTest.fit.isWorthACause()))
-        if (const TriedVariants* half = helpful(start)) {
-          addVariants(startOf(*half));
-          ofTest = best(sampledTest_, start.tried.names);
-        }
+      search();
     } catch (const Error& error) {
       if (error.fault() != Fault::limit) throw;
       result_.stopped = error.messages().front().what;
-      const BudgetScope late(nullptr);
-      ofTest = best(sampledTest_, start.tried.names);
     }
+    if (tried_.empty()) return std::move(result_);
     const BudgetScope late(result_.stopped.empty() ? budgetOfThread.budget : nullptr);
-    if (!exchanged) result_.rmse = rmseAfter({}, start.tried.shot.as(test_), sampledTest_);
-    if (ofTest.explains())
-      result_.test = matchOf(ofTest, sampledTest_);
-    else if (const TriedVariants* nearest = helpful(start))
-      result_.nearest = SceneMatch{nearest->names, {}, rmseAfter({}, nearest->shot.as(test_), sampledTest_)};
-    const bool isTurned = exchanged || (ofTest.explains() && ofTest.fit.change.parts() > 0);
-    if (!isTurned && !(ofTest.explains() && ofTest.parts == 0) && result_.stopped.empty())
-      explainPixel(start, worst);
+    report();
+    if (mayHavePixel() && result_.stopped.empty()) explainPixel(worst);
+    if (result_.test && result_.pixel && result_.pixel->text.empty()) result_.pixel.reset();
     return std::move(result_);
   }
 
  private:
+  /// Traces variants until one makes the test.
+  void search() {
+    start_.tried.shot = shot(start_.scene, start_.settings);
+    tried_.push_back(start_.tried);
+    addVariants(start_);
+    result_.reference = referenceMatch();
+    if (!result_.reference) return addUponHelpful();
+    if (isSolved()) return;
+    if (result_.reference->change.parts() == 0 && !result_.reference->variants.empty()) {
+      start_ = startOf(*best(sampledReference_).tried);
+      addVariants(start_);
+    }
+    if (!isSolved()) addValues();
+    if (!isSolved()) addUponHelpful();
+  }
+
+  /// The best variant makes the test so well that no other is sought.
+  bool isSolved() const {
+    const VariantFit found = best(sampledTest_);
+    if (!found.explains()) return false;
+    const double left = rmseAfter(found.fit.change, found.tried->shot.as(test_), sampledTest_);
+    return left <= kExact * differenceFromStart() || (found.parts == 0 && left <= seen());
+  }
+
+  /// Tries the variants upon the one that helps most, if one does.
+  void addUponHelpful() {
+    if (const TriedVariants* half = helpful()) addVariants(startOf(*half));
+  }
+
+  void report() {
+    if (!result_.reference) result_.reference = referenceMatch();
+    result_.rmse = differenceFromStart();
+    const VariantFit ofTest = best(sampledTest_);
+    if (ofTest.explains()) {
+      result_.test = matchOf(ofTest, sampledTest_);
+      result_.test->alike = alike(*ofTest.tried);
+      if (ofTest.parts > 0 && result_.test->rmse > kMatchLeaves * result_.rmse) result_.test.reset();
+    }
+    if (!result_.test) result_.nearest = nearest();
+  }
+
+  /// The RMSE of the test and the scene as it makes the reference; infinite if the sizes are exchanged.
+  double differenceFromStart() const { return rmseAfter({}, start_.tried.shot.as(test_), sampledTest_); }
+  /// The smallest RMSE that an eye may see.
+  double seen() const { return test_.levels ? kSeenLevels : kSeenLevels / 255; }
+
   /// Calls use(moments) for the scene, built.
   template <class Use>
   auto withMoments(const Scene& scene, const Settings& settings, const Use& use) const {
@@ -242,24 +281,55 @@ class VariantSearch {
     return picture;
   }
 
-  /// Traces the start with each of its variants. One that changes nothing that is seen is none; one that
-  /// cannot be built neither.
+  /// Traces the start with each of its variants.
   void addVariants(const SceneStart& start) {
     const std::vector<SceneVariant> variants = variantsOf(start.scene, start.settings);
     result_.variants += variants.size();
     Work work("trying variants of the scene", static_cast<std::int64_t>(variants.size()));
     for (std::size_t i = 0; i < variants.size(); ++i) {
       work.reached(static_cast<std::int64_t>(i));
-      Scene scene = start.scene;
-      Settings settings = start.settings;
-      variants[i].apply(scene, settings);
+      addVariant(start, variants[i]);
+    }
+  }
+
+  /// Traces the start with the variant. One that changes nothing that is seen is none; one that cannot be
+  /// built neither.
+  void addVariant(const SceneStart& start, const SceneVariant& variant) {
+    SceneStart with{start.scene, start.settings, {start.tried.variants, {}, {}, {}}};
+    variant.apply(with.scene, with.settings);
+    with.tried.variants.push_back(variant);
+    try {
+      with.tried.shot = shot(with.scene, with.settings);
+      if (!(with.tried.shot.light.picture == start.tried.shot.light.picture) ||
+          !(with.tried.shot.levels.picture == start.tried.shot.levels.picture))
+        tried_.push_back(std::move(with.tried));
+    } catch (const Error&) {
+      const BudgetScope scope(&limit_);
+      lookAtBudget();
+    }
+    ++result_.tried;
+  }
+
+  /// Looks for other values of the scene that make the test.
+  void addValues() {
+    if (exchanged_ || !isOfPixels(start_.settings)) return;
+    const std::vector<SceneValue> values = valuesOf(start_.scene);
+    const ValueSearch task{
+        start_.scene, start_.tried.shot.light.picture, sampledTest_,
+        [&](const Scene& scene) { return shot(scene, start_.settings).light.picture; },
+        [&](const Picture& light) {
+          return test_.levels ? levelsOf(light, start_.settings) : LoadedPicture{light, false};
+        }};
+    result_.variants += values.size();
+    Work work("trying values of the scene", static_cast<std::int64_t>(values.size()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      work.reached(static_cast<std::int64_t>(i));
       try {
-        TriedVariants tried{start.tried.names, shot(scene, settings)};
-        tried.names.push_back(variants[i].text);
-        if (!(tried.shot.light.picture == start.tried.shot.light.picture) ||
-            !(tried.shot.levels.picture == start.tried.shot.levels.picture))
-          tried_.push_back(std::move(tried));
-      } catch (const Error&) {
+        if (const auto variant = fittedVariant(values[i], task)) {
+          addVariant(start_, *variant);
+          continue;
+        }
+      } catch (const Error&) {  // the scene cannot be built
         const BudgetScope scope(&limit_);
         lookAtBudget();
       }
@@ -270,27 +340,17 @@ class VariantSearch {
   /// The scene with those variants.
   SceneStart startOf(const TriedVariants& tried) const {
     SceneStart start{session_.scene(), session_.settings(), tried};
-    for (const std::string& name : tried.names)
-      for (const SceneVariant& variant : variantsOf(start.scene, start.settings))
-        if (variant.text == name) {
-          variant.apply(start.scene, start.settings);
-          break;
-        }
+    for (const SceneVariant& variant : tried.variants) variant.apply(start.scene, start.settings);
     return start;
   }
 
-  static bool startsWith(const TriedVariants& tried, const std::vector<std::string>& names) {
-    return tried.names.size() >= names.size() && std::equal(names.begin(), names.end(), tried.names.begin());
-  }
-
-  /// The decisive match with the fewest parts, among all that was traced upon those variants.
-  VariantFit best(const LoadedPicture& picture, const std::vector<std::string>& upon) const {
+  /// The decisive match with the fewest parts, among all that was traced upon the start.
+  VariantFit best(const LoadedPicture& picture) const {
     std::array<VariantFit, kMostVariantParts + 1> found;
     for (const TriedVariants& tried : tried_) {
-      if (!startsWith(tried, upon)) continue;
-      for (const ChangeFit& fit : bestChanges(tried.shot.as(picture), picture)) {
-        const std::size_t parts =
-            tried.names.size() - upon.size() + static_cast<std::size_t>(fit.change.parts());
+      if (!tried.isUpon(start_.tried)) continue;
+      for (const ChangeFit& fit : changesOf(tried, picture)) {
+        const std::size_t parts = extraVariants(tried) + static_cast<std::size_t>(fit.change.parts());
         if (parts <= kMostVariantParts && fit.left < found[parts].fit.left - 1e-9 * fit.contrast)
           found[parts] = {&tried, fit, parts};
       }
@@ -298,18 +358,95 @@ class VariantSearch {
     VariantFit chosen = found[0];
     for (const VariantFit& other : found)
       if (other.tried && other.fit.replaces(chosen.fit)) chosen = other;
+    return exactOr(chosen, picture);
+  }
+
+  /// The changes that make one of the two pictures of what was tried.
+  const std::array<ChangeFit, 4>& changesOf(const TriedVariants& tried, const LoadedPicture& picture) const {
+    auto& known = &picture == &sampledTest_ ? tried.toTest : tried.toReference;
+    if (!known) known = bestChanges(tried.shot.as(picture), picture);
+    return *known;
+  }
+
+  std::size_t extraVariants(const TriedVariants& tried) const {
+    return tried.variants.size() - start_.tried.variants.size();
+  }
+
+  /// Instead of what was chosen by blocks, the variant that leaves nearly nothing of the pixels: what differs
+  /// in few of them hardly changes blocks.
+  VariantFit exactOr(VariantFit chosen, const LoadedPicture& picture) const {
+    if (!chosen.tried) return chosen;
+    double least = kExact * rmseAfter(chosen.fit.change, chosen.tried->shot.as(picture), picture);
+    for (const TriedVariants& tried : tried_) {
+      if (least == 0) break;
+      if (!tried.isUpon(start_.tried) || extraVariants(tried) != 1) continue;
+      const LoadedPicture& own = tried.shot.as(picture);
+      if (const double left = rmseAfter({}, own, picture); left < least) {
+        least = left;
+        chosen = {&tried, changesOf(tried, picture)[0], 1};
+      }
+    }
     return chosen;
   }
 
-  /// The variant upon the start that leaves least of the test, if it leaves clearly less; null if none does.
-  const TriedVariants* helpful(const SceneStart& start) const {
-    const auto left = [&](const TriedVariants& tried) {
-      return bestChanges(tried.shot.as(test_), sampledTest_)[0].left;
-    };
-    const TriedVariants* nearest = nullptr;
-    double least = kHalfHelps * left(start.tried);
+  /// The match of the reference; nothing if nothing that was tried makes it.
+  std::optional<SceneMatch> referenceMatch() const {
+    const VariantFit found = best(sampledReference_);
+    if (!found.explains()) return {};
+    return matchOf(found, sampledReference_);
+  }
+
+  /// The variants that give the picture of this one. Options count only where this is none: conventions
+  /// contain each other.
+  std::vector<std::string> alike(const TriedVariants& chosen) const {
+    std::vector<std::string> texts;
+    if (chosen.variants.empty() || chosen.variants.back().isOption) return texts;
     for (const TriedVariants& tried : tried_) {
-      if (!startsWith(tried, start.tried.names) || tried.names.size() == start.tried.names.size()) continue;
+      const bool isOther =
+          &tried != &chosen && tried.variants.size() == chosen.variants.size() &&
+          std::equal(tried.variants.begin(), tried.variants.end() - 1, chosen.variants.begin(),
+                     [](const auto& a, const auto& b) { return a.text == b.text; });
+      if (isOther && texts.size() < kMostAlike &&
+          tried.shot.as(test_).picture == chosen.shot.as(test_).picture)
+        texts.push_back(tried.variants.back().text);
+    }
+    return texts;
+  }
+
+  /// The variant, or two, whose pixels are nearest to the test, if they leave clearly less than the start.
+  std::optional<SceneMatch> nearest() const {
+    const TriedVariants* found = nullptr;
+    double least = kMostLeftOfNearest * result_.rmse;
+    for (std::size_t count = 1; count <= 2; ++count) {
+      for (const TriedVariants& tried : tried_) {
+        if (!tried.isUpon(start_.tried) || extraVariants(tried) != count) continue;
+        if (const double left = rmseAfter({}, tried.shot.as(test_), sampledTest_); left < least) {
+          least = left;
+          found = &tried;
+        }
+      }
+      least *= kMostLeftOfNearest;  // a second one must help as much
+    }
+    if (!found) return {};
+    return SceneMatch{found->names(), {}, rmseAfter({}, found->shot.as(test_), sampledTest_)};
+  }
+
+  /// The pixels of the test are where the scene has them, and something of them is not explained.
+  bool mayHavePixel() const {
+    if (exchanged_) return false;
+    if (!result_.test) return true;
+    const PictureChange& change = result_.test->change;
+    if (change.parts() == 0) return !result_.test->variants.empty() || result_.test->rmse > 0;
+    return change.parts() == 1 && change.curve != PictureChange::Curve::none && result_.test->rmse > seen();
+  }
+
+  /// The variant upon the start that leaves least of the test, if it leaves clearly less; null if none does.
+  const TriedVariants* helpful() const {
+    const auto left = [&](const TriedVariants& tried) { return changesOf(tried, sampledTest_)[0].left; };
+    const TriedVariants* nearest = nullptr;
+    double least = kHalfHelps * left(start_.tried);
+    for (const TriedVariants& tried : tried_) {
+      if (!tried.isUpon(start_.tried) || extraVariants(tried) == 0) continue;
       if (const double own = left(tried); own < least) {
         least = own;
         nearest = &tried;
@@ -319,15 +456,16 @@ class VariantSearch {
   }
 
   static SceneMatch matchOf(const VariantFit& found, const LoadedPicture& picture) {
-    return {found.tried->names, found.fit.change,
-            rmseAfter(found.fit.change, found.tried->shot.as(picture), picture)};
+    const LoadedPicture& own = found.tried->shot.as(picture);
+    const PictureChange change = withSharpestCurve(found.fit.change, own, picture);
+    return {found.tried->names(), change, rmseAfter(change, own, picture)};
   }
 
-  void explainPixel(const SceneStart& start, const PixelPlace& worst) {
+  void explainPixel(const PixelPlace& worst) {
     try {
-      result_.pixel = withMoments(start.scene, start.settings, [&](const auto& moments) {
-        return pixelCause({start.scene, start.settings, moments, session_.size()}, test_,
-                          differing(start.tried.shot, worst));
+      result_.pixel = withMoments(start_.scene, start_.settings, [&](const auto& moments) {
+        return pixelCause({start_.scene, start_.settings, moments, session_.size()}, test_,
+                          differing(start_.tried.shot, worst));
       });
     } catch (const Error& error) {
       if (error.fault() != Fault::limit) throw;
@@ -361,6 +499,8 @@ class VariantSearch {
   Session session_;
   std::optional<PixelLattice> lattice_;
   LoadedPicture sampledReference_, sampledTest_;
+  bool exchanged_ = false;           // width and height of the test
+  SceneStart start_;                 // makes the reference, as far as is known
   std::deque<TriedVariants> tried_;  // whose elements stay where they are
   SceneCauses result_;
 };

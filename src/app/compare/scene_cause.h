@@ -17,8 +17,8 @@
 namespace trace {
 
 struct SceneQuestion {
-  std::string file;             ///< the scene
-  std::vector<Choice> choices;  ///< options with which the reference was rendered
+  std::string file{};             ///< the scene
+  std::vector<Choice> choices{};  ///< options with which the reference was rendered
   bool strict = false;
   double seconds = 30;  ///< the most that the variants may take; 0 for no limit of their own
 };
@@ -29,6 +29,9 @@ struct SceneMatch {
   PictureChange change;               ///< the change of the picture, after that
   /// The difference that is left, beyond that of rounding to levels, in the unit of the picture.
   double rmse = 0;
+  /// Other variants than the last that give the same picture: "with directional lights from the opposite
+  /// side". Few are named, and none next to an option.
+  std::vector<std::string> alike{};
 
   /// "with --like ut, without shadows and upside down"; "" for the scene as it is.
   std::string text() const;
@@ -43,18 +46,21 @@ struct SceneCauses {
   /// The variants that make each of the two pictures; nothing if none does.
   std::optional<SceneMatch> reference, test;
   std::optional<SceneMatch> nearest;  ///< the variant that leaves least of the test, if nothing makes it
-  double rmse = 0;                    ///< the difference of the test and the scene as it makes the reference
-  std::optional<PixelCause> pixel;    ///< explains the pixel that differs most
-  std::vector<Message> warnings;      ///< warnings about the scene
-  InputFiles inputs;                  ///< files that the scene was read from
+  bool isOutdone = false;             ///< a change of the whole picture explains the test better
+  /// The difference of the test and the scene as it makes the reference; infinite if the sizes differ.
+  double rmse = 0;
+  std::optional<PixelCause> pixel;  ///< explains the pixel that differs most
+  std::vector<Message> warnings;    ///< warnings about the scene
+  InputFiles inputs;                ///< files that the scene was read from
 };
 
 /// Renders the scene in the size of the reference, with the variants of app/compare/scene_variants.h one by
-/// one, and two at a time where one helps but does not suffice, and compares each with the pictures by the
-/// rule of causeOfDifference(). Variants that make the reference hold for the test too. `worst` is the pixel
-/// to explain. If the time of the thread's budget or of the question is over, what was found by then is
-/// returned. Nothing if the pictures cannot be compared, or are too small. Throws Error if the scene cannot
-/// be read or built.
+/// one, with other values (app/compare/scene_values.h) where none of these suffices, and two at a time where
+/// one helps. Each is compared with the pictures by the rule of causeOfDifference(). Variants that make the
+/// reference hold for the test too. `worst` is the pixel to explain. If the time of the thread's budget or of
+/// the question is over, what was found by then is returned. A match leaves at most half of the difference of
+/// the pixels, a nearest variant three quarters. Nothing if the pictures cannot be compared, or are too
+/// small. Throws Error if the scene cannot be read or built.
 std::optional<SceneCauses> sceneCauses(const SceneQuestion& question, const LoadedPicture& reference,
                                        const LoadedPicture& test, const PixelPlace& worst);
 

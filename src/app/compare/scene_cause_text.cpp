@@ -25,12 +25,14 @@ std::string atText(const PixelPlace& pixel) {
 
 std::string testText(const SceneCauses& causes, const std::string& test) {
   if (causes.test) {
-    const bool isPlain = causes.test->text().empty();
-    const std::string left = isPlain && causes.test->rmse > 0
-                                 ? rmseText(causes.test->rmse, causes.unit) + " is left"
-                                 : leftText(causes.test->rmse, causes.unit);
-    return test + " is " + givenText(causes, *causes.test) + "; " + left + " in " +
-           std::to_string(causes.pixels) + " pixels compared";
+    const bool isNearly = causes.test->text().empty() && causes.test->rmse > 0;
+    const std::string left = isNearly ? rmseText(causes.test->rmse, causes.unit) + " is left"
+                                      : leftText(causes.test->rmse, causes.rmse, causes.unit);
+    std::string alike;
+    for (const std::string& variant : causes.test->alike)
+      alike += (alike.empty() ? "; the same picture comes out " : ", or ") + printable(variant);
+    return test + (isNearly ? " is nearly " : " is ") + givenText(causes, *causes.test) + "; " + left +
+           " in " + std::to_string(causes.pixels) + " pixels compared" + alike;
   }
   const std::string none = "none of " + std::to_string(causes.tried) + " variants of " +
                            printable(causes.file) + " explains " + test;
@@ -66,17 +68,23 @@ std::string SceneMatch::text() const {
 
 std::vector<std::string> sceneSentences(const SceneCauses& causes, const std::string& reference,
                                         const std::string& test) {
-  std::vector<std::string> all{testText(causes, test)};
-  if (!causes.reference)
+  std::vector<std::string> all;
+  if (!causes.isOutdone && (causes.test || causes.nearest || causes.tried > 0))
+    all.push_back(testText(causes, test));
+  if (causes.reference) {
+    if (!causes.reference->text().empty())
+      all.push_back(reference + " is " + givenText(causes, *causes.reference));
+  } else if (causes.stopped.empty()) {
     all.push_back(reference + " is not what " + printable(causes.file) + " gives: " +
                   (causes.test && causes.test->text().empty()
                        ? "the reference stands first, the picture to explain second"
                        : "are these the options that it was rendered with?"));
-  else if (!causes.reference->text().empty())
-    all.push_back(reference + " is " + givenText(causes, *causes.reference));
+  }
   if (!causes.stopped.empty())
-    all.push_back("stopped after " + std::to_string(causes.tried) + " of " + std::to_string(causes.variants) +
-                  " variants: " + causes.stopped);
+    all.push_back((causes.variants > 0 ? "stopped after " + std::to_string(causes.tried) + " of " +
+                                             std::to_string(causes.variants) + " variants: "
+                                       : "stopped before " + printable(causes.file) + " was rendered: ") +
+                  causes.stopped);
   if (causes.pixel) all.push_back(pixelText(*causes.pixel, test));
   return all;
 }

@@ -17,6 +17,7 @@ namespace trace {
 namespace {
 
 constexpr std::size_t kMostLights = 8, kMostObjects = 16;  // that are left out one by one
+constexpr int kMostDepth = 10;                             // the deepest of those that are tried one by one
 
 /// Gives the fields of that name and type the value, in all materials.
 template <class Value>
@@ -97,12 +98,13 @@ class Variants {
   Variants(const Scene& scene, const Settings& settings) : scene_(scene), settings_(settings) {}
 
   std::vector<SceneVariant> all() {
-    conventionOptions();
-    terms();
-    tracing();
-    camera();
-    for (const Convention& row : conventions()) option("like", std::string(row.name));
+    missingTerms();
     lightsAndObjects();
+    conventionOptions();
+    tracing();
+    for (const Convention& row : conventions()) option("like", std::string(row.name));
+    signsAndFactors();
+    camera();
     return std::move(all_);
   }
 
@@ -114,23 +116,26 @@ class Variants {
       all_.push_back(
           {std::move(text), [apply = std::move(apply)](Scene& scene, Settings&) { apply(scene); }});
   }
-  void set(std::string text, std::function<void(Settings&)> apply) {
+  void set(std::string text, std::function<void(Settings&)> apply, bool isOption = false) {
     Settings changed = settings_;
     apply(changed);
     if (!(changed == settings_))
-      all_.push_back(
-          {std::move(text), [apply = std::move(apply)](Scene&, Settings& settings) { apply(settings); }});
+      all_.push_back({std::move(text),
+                      [apply = std::move(apply)](Scene&, Settings& settings) { apply(settings); }, isOption});
   }
 
   /// The option with another value, as on the command line.
   void option(std::string_view name, const std::string& value) {
     const std::vector<Choice> layer{{std::string(name), value, {}}};
-    set("with --" + std::string(name) + " " + value, [layer](Settings& settings) {
-      if (layer[0].option != "like") return findOption(layer[0].option).assign(settings, layer[0].value);
-      const Settings given = resolve({layer});
-      for (const Option& row : options())
-        if (isConvention(row)) row.assign(settings, row.get(given));
-    });
+    set(
+        "with --" + std::string(name) + " " + value,
+        [layer](Settings& settings) {
+          if (layer[0].option != "like") return findOption(layer[0].option).assign(settings, layer[0].value);
+          const Settings given = resolve({layer});
+          for (const Option& row : options())
+            if (isConvention(row)) row.assign(settings, row.get(given));
+        },
+        true);
   }
 
   /// Each option of the group alone: its names, or the values that conventions give it.
@@ -147,8 +152,8 @@ class Variants {
     }
   }
 
-  /// Terms of the equation that are missing, and signs and factors that are wrong.
-  void terms() {
+  /// Terms of the equation that are missing.
+  void missingTerms() {
     const Settings& s = settings_;
     edit("without shadows", [](Scene& scene) { setFields<Real>(scene, "shadow", 0); });
     edit("without reflections", [](Scene& scene) {
@@ -163,6 +168,13 @@ class Variants {
     set("without ambient light", [](Settings& settings) { settings.ambientScale = 0; });
     edit("without diffuse light", [](Scene& scene) { setFields(scene, "diffuse", Color(0)); });
     edit("without emission", [](Scene& scene) { setFields(scene, "emissive", Color(0)); });
+    for (const std::string_view power : {"linear", "quadratic"})
+      edit("without the " + std::string(power) + " attenuation of lights", [power](Scene& scene) {
+        changeLights(scene, [&](Light& light) {
+          if (Real* factor = editableValue<Real>(light, std::string(power) + "_attenuation_coeff"))
+            *factor = 0;
+        });
+      });
     edit("without attenuation by distance", [](Scene& scene) {
       changeLights(scene, [](Light& light) {
         if (light.type().starts != LightOrigin::ball) return;
@@ -171,6 +183,13 @@ class Variants {
         *editableValue<Real>(light, "quadratic_attenuation_coeff") = 0;
       });
     });
+    edit("with a black background", [](Scene& scene) { scene.background = {}; });
+    option("textures", "off");
+  }
+
+  /// Signs and factors that are wrong.
+  void signsAndFactors() {
+    const Settings& s = settings_;
     edit("with glass that does not bend light",
          [s](Scene& scene) { changeIndices(scene, [&](Real) { return s.airIndex; }); });
     edit("with the ratio of the indices of refraction inverted", [s](Scene& scene) {
@@ -188,14 +207,13 @@ class Variants {
     edit("with the normals of meshes inverted", [](Scene& scene) { changeMeshes(scene, invertNormals); });
     edit("with textures upside down", [](Scene& scene) { mirrorTextures(scene, &Vec3::y); });
     edit("with textures mirrored left to right", [](Scene& scene) { mirrorTextures(scene, &Vec3::x); });
-    edit("with a black background", [](Scene& scene) { scene.background = {}; });
   }
 
   void tracing() {
-    if (settings_.depth > 0) option("depth", std::to_string(settings_.depth - 1));
-    if (settings_.depth < 1000) option("depth", std::to_string(settings_.depth + 1));
-    option("depth", "0");
-    option("textures", "off");
+    const int depth = settings_.depth;
+    for (int other = 0; other <= kMostDepth; ++other) option("depth", std::to_string(other));
+    for (const int other : {depth - 1, depth + 1})
+      if (other > kMostDepth && other <= 1000) option("depth", std::to_string(other));
     option("models", "phong");
     for (const Option& row : options())
       if (row.extra && row.concerns(settings_)) option(row.name, row.get(Settings{}));
@@ -203,21 +221,17 @@ class Variants {
     for (std::size_t i = 0; i < shapeTypes().size(); ++i) {
       const auto isOfKind = [&](const Object& object) { return object.shape.type().index == i; };
       if (std::any_of(scene_.objects.begin(), scene_.objects.end(), isOfKind))
-        set("with --omit " + std::string(shapeTypes()[i].keyword),
-            [i](Settings& settings) { settings.omit.add(static_cast<ShapeKind>(i)); });
+        set(
+            "with --omit " + std::string(shapeTypes()[i].keyword),
+            [i](Settings& settings) { settings.omit.add(static_cast<ShapeKind>(i)); }, true);
     }
   }
 
   void withoutFeature(SceneFeature feature) {
-    const EnumSet<SceneFeature> only{feature};
-    const auto isIn = [&](const Material& material) {
-      return !(withoutFeatures(material, only) == material);
-    };
-    const auto isOf = [&](const LightSource& source) { return lightWithout(source.light, only).has_value(); };
-    if (std::any_of(scene_.materials.begin(), scene_.materials.end(), isIn) ||
-        std::any_of(scene_.lights.begin(), scene_.lights.end(), isOf))
-      set("with --without " + std::string(sceneFeatureNames()[static_cast<std::size_t>(feature)]),
-          [feature](Settings& settings) { settings.switchedOff.add(feature); });
+    if (hasFeature(scene_, feature))
+      set(
+          "with --without " + std::string(sceneFeatureNames()[static_cast<std::size_t>(feature)]),
+          [feature](Settings& settings) { settings.switchedOff.add(feature); }, true);
   }
 
   void camera() {

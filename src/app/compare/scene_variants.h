@@ -15,10 +15,11 @@ namespace trace {
 struct SceneVariant {
   std::string text;  ///< follows on "what scene.ray gives": "without shadows", "with --highlight phong"
   std::function<void(Scene&, Settings&)> apply;
+  bool isOption = false;  ///< it gives an option another value
 };
 
-/// The variants that change the scene or the settings, those first that name the cause most exactly. Where
-/// two give the same picture, the first counts.
+/// The variants that change the scene or the settings, the simplest first: one thing that is missing, then
+/// options, then other changes. Where two give the same picture, the first counts.
 std::vector<SceneVariant> variantsOf(const Scene& scene, const Settings& settings);
 
 }  // namespace trace

@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 
 #include "app/compare/grade_files.h"
 #include "app/grading/class_results.h"
@@ -69,6 +70,17 @@ std::size_t agreement(const std::vector<std::string>& a, const std::vector<std::
   std::size_t count = 0;
   while (count < most && a[count] == b[count]) ++count;
   return count;
+}
+
+/// The files whose name, without folders and suffix, is that of no reference.
+std::vector<std::string> withoutReference(const std::vector<std::string>& references,
+                                          const std::vector<std::string>& files) {
+  std::set<std::string> known;
+  for (const std::string& reference : references) known.insert(partsFromEnd(reference).front());
+  std::vector<std::string> others;
+  for (const std::string& file : files)
+    if (!known.contains(partsFromEnd(file).front())) others.push_back(file);
+  return others;
 }
 
 /// The student's folder: its files and a hash of all that a scene in it may read.
@@ -136,6 +148,7 @@ class ClassGrader {
       throw Error(Fault::usage, "--run: expected --scene DIR, the folder of the scenes", "--scene scenes");
     checkRun(task_.run);
     readReferences();
+    checkRubric();
     for (Submission& submission : submissionsIn(task_.grade)) students_.push_back(std::move(submission));
     for (const Submission& student : students_) {
       ClassStudent& graded = grades_.students.emplace_back();
@@ -185,6 +198,12 @@ class ClassGrader {
     }
     if (references_.empty())
       throw Error(Fault::usage, "there is no picture in the folder \"" + task_.grade.reference + "\"");
+  }
+
+  void checkRubric() const {
+    std::vector<std::string> names;
+    for (const ClassScene& scene : grades_.scenes) names.push_back(scene.name);
+    task_.rubric.checkScenes(names);
   }
 
   void gradeAll() {
@@ -241,16 +260,29 @@ class ClassGrader {
           files.push_back(file.generic_string());
     if (task_.grade.renderScenes || runs()) student.everything = hashOfFolder(student.folder);
     const std::vector<std::string> assigned = assignSubmissions(names, files);
+    if (!runs()) graded.extra = withoutReference(names, files);
     for (std::size_t i = 0; i < names.size(); ++i) {
       GradedPair& pair = graded.pairs[i];
       pair.file = runs() ? "" : assigned[i];
       if (runs())
         runPair(student, references_[i], pair);
       else if (pair.file.empty())
-        pair.verdict = Verdict::missing;
+        noteMissing(pair, graded.extra);
       else
         gradePair(student, references_[i], pair);
     }
+  }
+
+  /// Names the file that may be meant.
+  static void noteMissing(GradedPair& pair, const std::vector<std::string>& extra) {
+    pair.verdict = Verdict::missing;
+    std::vector<std::string> stems;
+    for (const std::string& file : extra) stems.push_back(partsFromEnd(file).front());
+    const std::vector<std::string_view> candidates(stems.begin(), stems.end());
+    const std::string meant = nearest(partsFromEnd(pair.name).front(), candidates);
+    const auto found = std::find(stems.begin(), stems.end(), meant);
+    if (found != stems.end())
+      pair.problem = "missing; there is " + extra[static_cast<std::size_t>(found - stems.begin())];
   }
 
   void gradePair(const Submission& student, const Reference& reference, GradedPair& pair) {
@@ -281,8 +313,7 @@ class ClassGrader {
           difference(*reference.picture,
                      task_.grade.renderScenes ? renderedScene(file, task_.grade, inputs) : loadPicture(file),
                      task_.grade.difference);
-      judge(pair, d, task_.grade.limits);
-      addSceneCause(pair, d, task_.grade, inputs);
+      judge(pair, d, task_.grade, inputs);
       if (task_.grade.keepsPictures && !passes(pair.verdict)) addThumbnails(pair, d);
       const std::lock_guard lock(mutex_);
       results_.add(key, pair);
@@ -316,8 +347,7 @@ class ClassGrader {
       const PictureDifference d =
           difference(*reference.picture, programPicture(task_.run, student.folder, scene, suffix, cpu),
                      task_.grade.difference);
-      judge(pair, d, task_.grade.limits);
-      addSceneCause(pair, d, task_.grade, inputs);
+      judge(pair, d, task_.grade, inputs);
       if (task_.grade.keepsPictures && !passes(pair.verdict)) addThumbnails(pair, d);
     });
     pair.cpu = cpu;

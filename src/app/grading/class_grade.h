@@ -31,6 +31,7 @@ struct ClassStudent {
   std::string name;
   std::vector<GradedPair> pairs;  ///< one for each scene, in their order; its pictures are small JPEG files
   std::vector<double> points;     ///< the points of each pair
+  std::vector<std::string> extra{};  ///< files whose name is that of no reference
   double total = 0;
   std::size_t passed = 0;
 };

@@ -1,5 +1,6 @@
 // The page and the CSV file of a class: students by scenes. The picture of a reference stands in the page
 // once, as the background of its column; only pictures that fail are stored besides.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -82,8 +83,10 @@ std::string cellText(const GradedPair& pair) {
   std::string text;
   for (const std::string& mistake : pair.mistakes) text += (text.empty() ? "" : ", ") + mistake;
   if (!text.empty()) return text;
-  return pair.verdict == Verdict::unreadable && pair.cpu >= 0 ? shortened(pair.problem)
-                                                              : std::string(verdictText(pair.verdict));
+  const bool hasReason =
+      pair.verdict == Verdict::missing || (pair.verdict == Verdict::unreadable && pair.cpu >= 0);
+  return hasReason && !pair.problem.empty() ? shortened(pair.problem)
+                                            : std::string(verdictText(pair.verdict));
 }
 
 /// "1.24 s", "9 ms".
@@ -103,7 +106,8 @@ std::string timeText(const GradedPair& pair) {
 std::string detailText(const ClassTask& task, const ClassStudent& student, const GradedPair& pair) {
   std::string text(verdictText(pair.verdict));
   if (!pair.cause.empty()) text += "\n" + pair.cause;
-  if (!pair.problem.empty()) text += "\n" + pair.problem;
+  if (!pair.problem.empty())
+    text = pair.problem.starts_with(text) ? pair.problem : text + "\n" + pair.problem;
   if (pair.cpu >= 0) text += "\nprocessor time " + timeText(pair);
   for (std::size_t i = 0; i < pair.values.size(); ++i) {
     char number[40];
@@ -129,13 +133,34 @@ std::string cellHtml(const ClassTask& task, const ClassStudent& student, std::si
          (pair.cpu < 0 ? "" : "<span class=\"faint\">" + timeText(pair) + "</span>") + "</td>";
 }
 
-std::string csvField(std::string text) {
-  if (!text.empty() && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos)
+/// In one line: tools that read lines take a line break inside quotes for the end of a row.
+std::string inOneLine(const std::string& text) {
+  std::string line;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
+    if (end > at) line += (line.empty() ? "" : "; ") + text.substr(at, end - at);
+    at = end + 1;
+  }
+  return line;
+}
+
+std::string csvField(const std::string& given) {
+  std::string text = inOneLine(given);
+  if (!text.empty() && std::string_view("=+-@\t").find(text[0]) != std::string_view::npos)
     text.insert(0, "'");
-  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  if (text.find_first_of(",\"") == text.npos) return text;
   std::string quoted = "\"";
   for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
+}
+
+/// The files of students that are compared with nothing.
+std::string extraHtml(const ClassGrades& grades) {
+  std::string files;
+  for (const ClassStudent& student : grades.students)
+    for (const std::string& file : student.extra)
+      files += (files.empty() ? " " : ", ") + escaped(student.name + "/" + file);
+  return files.empty() ? "" : "<p class=\"faint\">Without a reference:" + files + "</p>\n";
 }
 
 }  // namespace
@@ -177,8 +202,8 @@ std::string classPage(const ClassTask& task, const ClassGrades& grades) {
     for (std::size_t i = 0; i < student.pairs.size(); ++i) html += cellHtml(task, student, i);
     html += "</tr>\n";
   }
-  return html +
-         "</tbody></table>\n<dialog aria-label=\"one picture\"><h2></h2><div "
+  return html + "</tbody></table>\n" + extraHtml(grades) +
+         "<dialog aria-label=\"one picture\"><h2></h2><div "
          "class=\"three\"></div><pre></pre>"
          "<button>Close</button></dialog>\n<script>" +
          std::string(kClassScript) + "</script></body></html>\n";

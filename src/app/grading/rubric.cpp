@@ -30,9 +30,15 @@ class RubricReader {
   Rubric read() {
     for (std::size_t at = 0; at < text_.size();) {
       const std::size_t end = std::min(text_.find('\n', at), text_.size());
-      readRow(at, std::min(text_.substr(0, end).find('#', at), end));
+      try {
+        readRow(at, std::min(text_.substr(0, end).find('#', at), end));
+      } catch (const Error& error) {
+        const Message& message = error.messages().front();
+        messages_.error(message.place, message.what, message.hint);
+      }
       at = end + 1;
     }
+    messages_.throwIfFailed();
     return std::move(rubric_);
   }
 
@@ -66,7 +72,8 @@ class RubricReader {
     std::size_t count = 3;
     if (kind == "scene") {
       if (word(1).text.empty()) fail(word(1).at, "the name of a scene", {});
-      rubric_.scenes.emplace_back(word(1).text, number(word(2)));
+      rubric_.scenes.push_back(
+          {std::string(word(1).text), number(word(2)), placeAt(file_, text_, word(1).at)});
     } else if (kind == "cause") {
       const auto name = std::find(std::begin(kMistakeNames), std::end(kMistakeNames), word(1).text);
       if (name == std::end(kMistakeNames))
@@ -105,15 +112,29 @@ class RubricReader {
   const std::string& file_;
   std::string_view text_;
   Rubric rubric_;
+  Messages messages_;
 };
 
 }  // namespace
 
 std::vector<std::string_view> mistakeNames() { return {std::begin(kMistakeNames), std::end(kMistakeNames)}; }
 
+void Rubric::checkScenes(const std::vector<std::string>& names) const {
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  Messages messages;
+  for (const SceneRow& row : scenes)
+    if (std::none_of(names.begin(), names.end(),
+                     [&](const std::string& name) { return fitsPattern(row.pattern, name); }))
+      messages.error(
+          row.place,
+          "expected the name of a reference picture without its suffix, found \"" + row.pattern + "\"",
+          didYouMean(row.pattern, known));
+  messages.throwIfFailed();
+}
+
 double Rubric::pointsOf(std::string_view scene) const {
-  for (const auto& [pattern, points] : scenes)
-    if (fitsPattern(pattern, scene)) return points;
+  for (const SceneRow& row : scenes)
+    if (fitsPattern(row.pattern, scene)) return row.points;
   return 1;
 }
 

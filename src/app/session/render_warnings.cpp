@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <set>
+#include <span>
 #include <string>
 #include <type_traits>
 
@@ -18,9 +19,13 @@
 #include "scene/groups.h"
 #include "scene/integrators.h"
 #include "scene/options.h"
+#include "scene/quality.h"
+#include "scene/scene_features.h"
 
 namespace trace {
 namespace {
+
+constexpr Real kCoolestWhite = 1667;  // kelvin, the least of --white-balance but for 0
 
 template <class Is>
 bool anyObject(const World& world, Is&& is) {
@@ -94,6 +99,21 @@ Real distanceAcross(const World& world) {
                      far(eye.z, box.low.z, box.high.z)});
 }
 
+/// The names of what is switched off and is not there, "spot_light and ward"; "" if everything is switched
+/// off.
+std::string switchedOffForNothing(const Scene& scene, const Settings& settings) {
+  std::string names;
+  std::size_t off = 0;
+  for (std::size_t i = 0; i < sceneFeatures().size(); ++i) {
+    const auto feature = static_cast<SceneFeature>(i);
+    if (!settings.switchedOff.has(feature)) continue;
+    ++off;
+    if (!hasFeature(scene, feature))
+      names += (names.empty() ? "" : " and ") + std::string(sceneFeatureNames()[i]);
+  }
+  return off == sceneFeatures().size() ? "" : names;
+}
+
 /// Options that say something of what another one switches on.
 struct Serves {
   std::string_view option, needed;
@@ -131,7 +151,11 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
   for (const Option& option : options()) {
     const bool ofScene = std::any_of(scene.choices.begin(), scene.choices.end(),
                                      [&](const Choice& choice) { return choice.option == option.name; });
-    const bool told = ofScene ? option.extra && integrator == meant : true;
+    const std::span<const Choice> chosen = choicesOf(s.quality);
+    const bool ofQuality = std::any_of(chosen.begin(), chosen.end(), [&](const Choice& choice) {
+      return choice.option == option.name && choice.value == option.get(s);
+    });
+    const bool told = !ofQuality && (ofScene ? option.extra && integrator == meant : true);
     if (told && !option.concerns(s) && option.get(s) != option.get({}))
       warn("--" + std::string(option.name) + " changes nothing: it concerns " +
            namesOfIntegrators(option.integrators) + ", and --integrator is " + integrator);
@@ -152,6 +176,13 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
       warn("--" + std::string(row.option) + " changes nothing without --" + std::string(row.needed),
            "for example --" + std::string(row.needed) + " " + std::string(row.hint));
   }
+
+  if (s.whiteBalance > 0 && s.whiteBalance < kCoolestWhite)
+    warn("--white-balance " + toText(s.whiteBalance) + " counts as " + toText(kCoolestWhite) +
+             " kelvin: cooler light is too red for a screen",
+         "0 leaves colours as they are");
+  if (const std::string names = switchedOffForNothing(scene, s); !names.empty())
+    warn("--without " + names + " changes nothing: the scene has none");
 
   const bool chains = traits.has(Trait::byChains);
   const bool splats = traits.has(Trait::splats);

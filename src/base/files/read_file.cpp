@@ -124,7 +124,7 @@ std::string readFile(const std::string& path) {
   if (S_ISFIFO(facts.st_mode)) return readPipe(file, path);
   if (!S_ISREG(facts.st_mode) || isMadeByTheKernel(file.get()))
     failToRead(path, "it is no ordinary file", "copy its contents into one");
-  std::string bytes(static_cast<std::size_t>(facts.st_size), '\0');
+  std::string bytes(static_cast<std::size_t>(facts.st_size) + 1, '\0');  // one more, so that its end is seen
   std::size_t read = 0;
   for (;;) {  // also what has grown since
     if (read == bytes.size()) bytes.resize(read + (std::size_t{1} << 16));

@@ -3,21 +3,25 @@
 //
 // Keys of the JSON object: reference, test, width, height (of A), unit ("levels" or "values"), tolerance,
 // means.{reference, test} (of each channel), sameSize, identical, within (the limits), then each metric by
-// name (null when infinite), worst.{x, y}, limits[] of {metric, limit, met}, cause (null if none was found)
-// of {text, turn, channels, curve, inverse, factor, right, down, rmse}, difference (name of the picture
-// written, or null). Parts of the cause that change nothing are null, 1 or 0. With --scene also scene (null
-// if it could not be compared) of {file, text (a list of sentences), pixels, tried, variants, stopped (or
-// null), rmse, reference, test, nearest, pixel}; reference, test and nearest are null or {text, variants,
+// name (null when infinite or not known), worst.{x, y}, limits[] of {metric, limit, met}, notes[] (sentences
+// about what is plain to see, such as a picture of one colour), cause (null if none was found) of {text,
+// turn, channels, curve, inverse, factor, right, down, rmse}, nearest (likewise, of a change that leaves too
+// much to be the cause), difference (name of the picture written, or null), stopped (why the cause was not
+// sought to the end, or null). Parts of the cause that change nothing are null, 1 or 0. With --scene also
+// scene (null if it was not compared) of {file, text (a list of sentences), pixels, tried, variants, stopped
+// (or null), rmse, reference, test, nearest, pixel}; reference, test and nearest are null or {text, variants,
 // change, rmse}; pixel is null or {x, y, text, confirmed, others, parts[] of {name, brings}}.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
-#include "app/compare/diff_cause.h"
+#include "app/compare/causes.h"
 #include "app/compare/difference.h"
-#include "app/compare/scene_cause.h"
 #include "app/session/json.h"
+#include "app/session/output.h"
 #include "base/budget.h"
 #include "base/files/file.h"
 #include "base/printable.h"
@@ -75,18 +79,25 @@ void warnOfLevels(const PictureDifference& d, const Arguments& arguments, const 
                    " light: they differ by tone and transfer curves too; compare two of one kind");
 }
 
-/// The causes of the difference.
-struct Causes {
-  std::optional<DifferenceCause> picture;
-  std::optional<SceneCauses> scene;
-};
+/// Lines about why the pictures differ.
+std::string whyText(const PictureDifference& d, const Causes& causes, const Arguments& arguments) {
+  const std::string a = printable(arguments.files[0]), b = printable(arguments.files[1]);
+  std::string text;
+  for (const std::string& sentence : causes.notes(a, b, d.unit())) text += "  note    " + sentence + "\n";
+  if (causes.picture)
+    text += (causes.picture->isNearest ? "  nearest " : "  cause   ") +
+            causeText(*causes.picture, a, b, d.unit()) + "\n";
+  if (causes.scene)
+    for (const std::string& sentence : sceneSentences(*causes.scene, a, b))
+      text += "  scene   " + sentence + "\n";
+  if (!causes.noScene.empty())
+    text += "  scene   not compared with " + printable(arguments.scene) + ": " + causes.noScene + "\n";
+  return text;
+}
 
 std::string diffText(const PictureDifference& d, const Causes& causes, const Arguments& arguments) {
   const std::string a = printable(arguments.files[0]), b = printable(arguments.files[1]);
-  std::string why = causes.picture ? "  cause   " + causeText(*causes.picture, a, b, d.unit()) + "\n" : "";
-  if (causes.scene)
-    for (const std::string& sentence : sceneSentences(*causes.scene, a, b))
-      why += "  scene   " + sentence + "\n";
+  const std::string why = whyText(d, causes, arguments);
   if (!d.numbers.sameSize)
     return a + " (" + sizeText(d.reference.picture) + ") and " + b + " (" + sizeText(d.test.picture) +
            ") differ in size\n" + why;
@@ -96,6 +107,7 @@ std::string diffText(const PictureDifference& d, const Causes& causes, const Arg
   text += "  means   " + channelsText(meanOf(d.reference, d)) + " and " + channelsText(meanOf(d.test, d)) +
           " " + std::string(d.unit()) + "\n";
   for (const Metric& metric : metrics()) {
+    if (!d.stopped.empty() && std::isnan(metric.value(d))) continue;
     text +=
         "  " + std::string(metric.name) + std::string(8 - metric.name.size(), ' ') + metricText(metric, d);
     if (metric.name == "max") {
@@ -161,7 +173,7 @@ Json sceneJson(const std::optional<SceneCauses>& causes, const Arguments& argume
           {"tried", causes->tried},
           {"variants", causes->variants},
           {"stopped", causes->stopped.empty() ? Json() : Json(causes->stopped)},
-          {"rmse", causes->rmse},
+          {"rmse", std::isfinite(causes->rmse) ? Json(causes->rmse) : Json()},
           {"reference", matchJson(causes->reference)},
           {"test", matchJson(causes->test)},
           {"nearest", matchJson(causes->nearest)},
@@ -188,10 +200,17 @@ std::string diffJson(const PictureDifference& d, const Causes& causes, const Arg
   json["limits"] = Json::list();
   for (const Limit& limit : arguments.limits)
     json["limits"].add({{"metric", limit.metric->name}, {"limit", limit.value}, {"met", limit.met(d)}});
-  json["cause"] = causeJson(causes.picture, d, arguments);
+  const bool isNearest = causes.picture && causes.picture->isNearest;
+  json["cause"] = isNearest ? Json() : causeJson(causes.picture, d, arguments);
+  json["nearest"] = isNearest ? causeJson(causes.picture, d, arguments) : Json();
+  json["notes"] = Json::list();
+  for (const std::string& note : causes.notes(arguments.files[0], arguments.files[1], d.unit()))
+    json["notes"].add(note);
+  if (!causes.noScene.empty()) json["notes"].add("not compared with the scene: " + causes.noScene);
   if (!arguments.scene.empty()) json["scene"] = sceneJson(causes.scene, arguments);
   json["difference"] = nullptr;
   if (!arguments.output.empty() && d.numbers.sameSize) json["difference"] = arguments.output;
+  json["stopped"] = causes.stopped.empty() ? Json() : Json(causes.stopped);
   return json.text(2) + "\n";
 }
 
@@ -211,22 +230,38 @@ void checkOptions(const Arguments& arguments) {
                   "options of renders are those that the reference was rendered with");
 }
 
-/// The causes that variants of the scene show. Ctrl-C keeps what was found by then.
-std::optional<SceneCauses> causesInScene(const PictureDifference& d, const Arguments& arguments,
-                                         const Console& console) {
-  const StopKey stop(console);
-  const bool isLimited = resolve({arguments.choices}).timeLimit > 0;
-  SceneQuestion question{arguments.scene, arguments.choices, arguments.strict};
-  if (isLimited) question.seconds = 0;
-  auto causes = sceneCauses(question, d.reference, d.test, {d.numbers.worstX, d.numbers.worstY});
-  if (!causes) {
-    console.line(LogLevel::warning, "warning: the pictures are too small to be compared with " +
-                                        printable(arguments.scene) + ", or their sizes differ");
-    return causes;
+/// Throws Error if there is no such file: where the pictures are identical, nothing else says so.
+void checkIsThere(const std::string& scene) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(scene, ignored) || std::filesystem::is_directory(scene, ignored))
+    readFile(scene);
+}
+
+/// FLIP is asked for, so that there is no result without it.
+bool needsFlip(const Arguments& arguments) {
+  const auto isFlip = [](const Metric& metric) { return metric.name == "flip"; };
+  return std::any_of(arguments.printed.begin(), arguments.printed.end(),
+                     [&](const Metric* metric) { return isFlip(*metric); }) ||
+         std::any_of(arguments.limits.begin(), arguments.limits.end(),
+                     [&](const Limit& limit) { return isFlip(*limit.metric); }) ||
+         (!arguments.output.empty() && arguments.show->name == "flip");
+}
+
+/// Finds what explains the difference, until the time is over or Ctrl-C is pressed.
+Causes findCauses(const PictureDifference& d, const Arguments& arguments, const Console& console) {
+  if (arguments.scene.empty()) {
+    const Work work("comparing the pictures");
+    return causesOf(d, nullptr);
   }
-  if (stop.pressed()) causes->stopped = "by the user";
-  console.warnings(causes->warnings);
-  if (!arguments.output.empty()) checkIsNoInput(arguments.output, causes->inputs);
+  const StopKey stop(console);
+  SceneQuestion question{arguments.scene, arguments.choices, arguments.strict};
+  const bool isLimited = resolve({arguments.choices}).timeLimit > 0;
+  if (isLimited) question.seconds = 0;
+  Causes causes = causesOf(d, &question);
+  if (!causes.scene) return causes;
+  if (stop.pressed()) causes.scene->stopped = "by the user";
+  console.warnings(causes.scene->warnings);
+  if (!arguments.output.empty()) checkIsNoInput(arguments.output, causes.scene->inputs);
   return causes;
 }
 
@@ -245,19 +280,19 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
        {std::pair{&arguments.files[0], &reference}, {&arguments.files[1], &test}})
     if (!loaded->remark.empty())
       console.line(LogLevel::warning, "warning: " + printable(*file) + ": " + printable(loaded->remark));
-  Causes causes;
+  if (!arguments.scene.empty()) checkIsThere(arguments.scene);
   const PictureDifference d = [&] {
     const Work work("comparing the pictures");
-    PictureDifference found =
-        difference(std::move(reference), std::move(test), {arguments.tolerance, arguments.pixelsPerDegree});
-    warnOfLevels(found, arguments, console);
-    const bool explains = (json || arguments.printed.empty()) && !found.numbers.identical;
-    if (explains) causes.picture = causeOfDifference(found.reference, found.test);
-    return found;
+    return difference(std::move(reference), std::move(test),
+                      {arguments.tolerance, arguments.pixelsPerDegree, !needsFlip(arguments)});
   }();
-  if (!arguments.scene.empty() && arguments.printed.empty() && !d.numbers.identical)
-    causes.scene = causesInScene(d, arguments, console);
-  const BudgetScope late(causes.scene ? nullptr : budgetOfThread.budget);  // what was found is reported
+  warnOfLevels(d, arguments, console);
+  const bool explains = (json || arguments.printed.empty()) && !d.numbers.identical;
+  const Causes causes = explains ? findCauses(d, arguments, console) : Causes{};
+  if (!causes.stopped.empty())
+    console.line(LogLevel::warning, "warning: the cause was not sought to the end: " + causes.stopped);
+  const bool isLate = !causes.stopped.empty() || (causes.scene && !causes.scene->stopped.empty());
+  const BudgetScope late(isLate ? nullptr : budgetOfThread.budget);  // what was found is reported
   printResult(json                        ? diffJson(d, causes, arguments)
               : arguments.printed.empty() ? diffText(d, causes, arguments)
                                           : printed(d, arguments));

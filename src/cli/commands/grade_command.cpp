@@ -7,7 +7,8 @@
 // ray grade --class DIR --reference DIR: students by scenes. With -o PAGE.html also PAGE.csv, and
 // PAGE.results, from which a run that was interrupted continues. Keys: folder, reference, possible, stopped
 // (or null), scenes[] of {name, points}, students[] of {name, points, passed, pairs[] of {file, verdict,
-// points, mistakes[], cause, problem, cpu, our_cpu (seconds, or null)}}, page, csv (or null).
+// points, mistakes[], cause, problem, cpu, our_cpu (seconds, or null)}, extra[] (files that have no
+// reference)}, page, csv (or null).
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -136,12 +137,13 @@ std::string besidePage(const std::string& page, const char* suffix) {
 
 std::string classText(const ClassGrades& grades) {
   std::vector<Row> rows{{"student", "verdicts", "points"}};
-  std::string below;
+  std::string below, extra;
   for (const ClassStudent& student : grades.students) {
     rows.push_back({student.name,
                     std::to_string(student.passed) + " of " + std::to_string(student.pairs.size()) +
                         " within the limits",
                     numberText(student.total)});
+    for (const std::string& file : student.extra) extra += student.name + "/" + file + ": has no reference\n";
     for (const GradedPair& pair : student.pairs) {
       if (passes(pair.verdict)) continue;
       const std::string& why = pair.cause.empty() ? pair.problem : pair.cause;
@@ -149,7 +151,7 @@ std::string classText(const ClassGrades& grades) {
                (why.empty() ? std::string(verdictText(pair.verdict)) : why.substr(0, why.find('\n'))) + "\n";
     }
   }
-  return tableText(rows) + below + counted(grades.students.size(), "student") + ", " +
+  return tableText(rows) + below + extra + counted(grades.students.size(), "student") + ", " +
          counted(grades.scenes.size(), "scene") + ", " + numberText(grades.possible) + " points\n";
 }
 
@@ -170,7 +172,9 @@ std::string classJson(const ClassTask& task, const ClassGrades& grades) {
     Json one{{"name", student.name},
              {"points", student.total},
              {"passed", student.passed},
-             {"pairs", Json::list()}};
+             {"pairs", Json::list()},
+             {"extra", Json::list()}};
+    for (const std::string& file : student.extra) one["extra"].add(file);
     for (std::size_t i = 0; i < student.pairs.size(); ++i) {
       const GradedPair& pair = student.pairs[i];
       Json mistakes = Json::list();

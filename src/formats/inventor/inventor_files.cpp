@@ -32,7 +32,7 @@ void Reader::include(const Values& v, State& state) {
       denied.at(document_.place(v.node().token));
     } catch (const Error& error) {
       if (error.fault() == Fault::limit) throw;
-      warn(v.node(), name + " is left out: " + error.messages().front().what, name);
+      return warn(v.node(), name + " is left out: " + error.messages().front().what, name);
     }
   if (!known->second) return warn(v.node(), name + " is left out: it holds itself", name);
   const Scene& part = *known->second;

@@ -51,6 +51,8 @@ constexpr std::string_view kFaces =
 constexpr std::string_view kSurfaces = " IndexedFaceSet ElevationGrid Extrusion ";
 constexpr std::string_view kLights = " PointLight DirectionalLight SpotLight ";
 constexpr std::string_view kCameras = " PerspectiveCamera OrthographicCamera ";
+constexpr std::string_view kKits = " SceneKit SeparatorKit ShapeKit WrapperKit ", kShapeKit = " ShapeKit ",
+                           kLooks = " AppearanceKit ";
 constexpr std::string_view kBindings =
     " DEFAULT OVERALL NONE PER_PART PER_PART_INDEXED PER_FACE PER_FACE_INDEXED PER_VERTEX "
     "PER_VERTEX_INDEXED ";
@@ -108,6 +110,45 @@ constexpr std::array kRules{
     Rule{" Appearance ", "material"},
     Rule{" Appearance ", "texture"},
     Rule{" Appearance ", "textureTransform"},
+    // kits, whose parts are nodes
+    Rule{" SceneKit SeparatorKit ShapeKit WrapperKit AppearanceKit CameraKit LightKit ", "callbackList"},
+    Rule{kKits, "pickStyle"},
+    Rule{kKits, "appearance"},
+    Rule{kKits, "units"},
+    Rule{kKits, "texture2Transform"},
+    Rule{kKits, "childList"},
+    Rule{" SceneKit SeparatorKit ShapeKit WrapperKit CameraKit LightKit ", "transform"},
+    Rule{" SceneKit ", "cameraList"},
+    Rule{" SceneKit ", "cameraNumber"},
+    Rule{" SceneKit ", "lightList"},
+    Rule{" CameraKit ", "camera"},
+    Rule{" LightKit ", "light"},
+    Rule{" LightKit ", "icon"},
+    Rule{kLooks, "lightModel"},
+    Rule{kLooks, "environment"},
+    Rule{kLooks, "drawStyle"},
+    Rule{kLooks, "material"},
+    Rule{kLooks, "complexity"},
+    Rule{kLooks, "texture2"},
+    Rule{kLooks, "font"},
+    Rule{kShapeKit, "materialBinding"},
+    Rule{kShapeKit, "normalBinding"},
+    Rule{kShapeKit, "textureCoordinateBinding"},
+    Rule{kShapeKit, "shapeHints"},
+    Rule{kShapeKit, "coordinate3"},
+    Rule{kShapeKit, "coordinate4"},
+    Rule{kShapeKit, "normal"},
+    Rule{kShapeKit, "textureCoordinate2"},
+    Rule{kShapeKit, "textureCoordinateFunction"},
+    Rule{kShapeKit, "profileCoordinate2"},
+    Rule{kShapeKit, "profileCoordinate3"},
+    Rule{kShapeKit, "profileList"},
+    Rule{kShapeKit, "shape"},
+    Rule{" ShapeKit WrapperKit ", "localTransform"},
+    Rule{" WrapperKit ", "contents"},
+    Rule{" NodeKitListPart ", "containerTypeName"},
+    Rule{" NodeKitListPart ", "childTypeNames"},
+    Rule{" NodeKitListPart ", "containerNode"},
     // transforms
     Rule{" Transform ", "translation", Takes::vector},
     Rule{" Transform ", "rotation", Takes::rotation},

@@ -89,6 +89,9 @@ class Reader {
   // --- groups ---
 
   void separator(const Values& v, State& state);
+  void kit(const Values& v, State& state);
+  void parts(const Values& v, State& state);
+  void kitList(const Values& v, State& state);
   void group(const Values& v, State& state);
   void transformSeparator(const Values& v, State& state);
   std::vector<NodeIn> alternatives(const Values& v, std::string_view field);

@@ -133,11 +133,18 @@ std::string_view pictureOf(LineWords words, Visit&& visit) {
   return LineWords(rest.substr(0, end)).rest();
 }
 
+/// One for all spellings of a map, with the picture.
+std::string mapAndPicture(std::string_view keyword, std::string_view picture) {
+  if (sameWord(keyword, "map_bump")) keyword = "bump";
+  if (sameWord(keyword, "map_disp")) keyword = "disp";
+  return std::string(keyword) + ' ' + std::string(picture);
+}
+
 class MtlCheck {
  public:
   /// `lines` are the text with continued lines made one.
   MtlCheck(const std::string& file, std::string_view text, std::string_view lines, UnusedTextures& textures,
-           std::map<std::string, Place, std::less<>>& pictures, WarningsByKind& warnings)
+           MapPlaces& pictures, WarningsByKind& warnings)
       : file_(file),
         text_(text),
         lines_(lines),
@@ -311,20 +318,15 @@ class MtlCheck {
             warn(name, "the option \"" + std::string(name) + "\" of a texture is ignored");
         });
     if (picture.empty()) return warn(at, std::string(key) + ": expected the name of a picture");
-    if (pictures_.find(picture) == pictures_.end()) {
-      Place where = place(picture);
-      where.text.clear();
-      pictures_.emplace(picture, std::move(where));
-    }
-    if (listed(kRendered, key)) return;
-    textures_.note(picture, textures_.empty() ? place(at) : Place());
+    if (!pictures_.find(key, picture)) pictures_.note(key, picture, {place(picture), std::string(at)});
+    if (!listed(kRendered, key)) textures_.note(picture, textures_.empty() ? place(at) : Place(), at);
   }
 
   const std::string& file_;
   std::string_view text_, lines_;
   std::string plain_;
   UnusedTextures& textures_;
-  std::map<std::string, Place, std::less<>>& pictures_;
+  MapPlaces& pictures_;
   WarningsByKind& warnings_;
   std::set<std::string_view> given_;               ///< keywords of the material so far
   std::optional<double> dissolve_, transparency_;  ///< d and Tr
@@ -334,8 +336,17 @@ class MtlCheck {
 
 }  // namespace
 
+void MapPlaces::note(std::string_view keyword, std::string_view picture, Line line) {
+  lines_.emplace(mapAndPicture(keyword, picture), std::move(line));
+}
+
+const MapPlaces::Line* MapPlaces::find(std::string_view keyword, std::string_view picture) const {
+  const auto found = lines_.find(mapAndPicture(keyword, picture));
+  return found == lines_.end() ? nullptr : &found->second;
+}
+
 std::string checkedMtl(const std::string& file, std::string_view text, UnusedTextures& textures,
-                       std::map<std::string, Place, std::less<>>& pictures, WarningsByKind& warnings) {
+                       MapPlaces& pictures, WarningsByKind& warnings) {
   std::string room;
   const std::string_view lines = joinedLines(text, room);
   MtlCheck checker(file, text, lines, textures, pictures, warnings);

@@ -75,34 +75,49 @@ struct CornerNumbers {
   std::int64_t point = 0, uv = 0, normal = 0;
 };
 
-/// 7, 7/8, 7//9 or 7/8/9, each perhaps negative, and with slashes behind that say nothing; nothing of another
-/// form. A point's number may be too large for any file, and is then as large as can be.
-std::optional<CornerNumbers> cornerOf(std::string_view word) {
-  CornerNumbers corner;
-  for (std::int64_t* number : {&corner.point, &corner.uv, &corner.normal}) {
-    const bool isPoint = number == &corner.point;
-    if (word.empty()) return isPoint ? std::nullopt : std::optional(corner);
-    const bool negative = word[0] == '-';
-    if (negative || word[0] == '+') word.remove_prefix(1);
-    std::size_t digits = 0;
-    for (; digits < word.size() && word[digits] >= '0' && word[digits] <= '9'; ++digits)
-      *number = std::min<std::int64_t>(*number * 10 + (word[digits] - '0'), std::int64_t{1} << 40);
-    if (isPoint ? digits == 0 : digits > 9) return {};
-    if (negative) *number = -*number;
-    word.remove_prefix(digits);
-    if (word.empty()) return corner;
-    if (word[0] != '/') return {};
-    word.remove_prefix(1);
-  }
-  return word.empty() ? std::optional(corner) : std::nullopt;
+/// Does a corner of a face end there?
+bool endsCorner(std::string_view text, std::size_t at) {
+  return at >= text.size() || text[at] == ' ' || text[at] == '\t' || text[at] == '\r' || text[at] == ';';
 }
 
-/// The index from 0 of what the file counts from 1, or backwards from -1; nothing if there is none yet.
-std::optional<std::int32_t> absolute(std::int64_t number, std::size_t count) {
-  const auto n = static_cast<std::int64_t>(count);
-  const std::int64_t result = number > 0 ? number - 1 : n + number;
-  if (number == 0 || result < 0 || result >= n) return {};
-  return static_cast<std::int32_t>(result);
+/// Takes 7, 7/8, 7//9 or 7/8/9, each perhaps negative, and with slashes behind that say nothing, off the
+/// text, or takes nothing. A point's number that is too large for any file stays so.
+std::optional<CornerNumbers> takeCorner(std::string_view& text) {
+  constexpr std::int64_t kBeyond = std::int64_t{1} << 40;
+  CornerNumbers corner;
+  std::size_t at = 0;
+  for (std::int64_t* number : {&corner.point, &corner.uv, &corner.normal}) {
+    const bool isPoint = number == &corner.point;
+    if (endsCorner(text, at)) {
+      if (isPoint) return {};
+      break;
+    }
+    const bool negative = text[at] == '-';
+    if (negative || text[at] == '+') ++at;
+    const std::size_t first = at;
+    for (; at < text.size() && text[at] >= '0' && text[at] <= '9'; ++at)
+      if (*number < kBeyond) *number = *number * 10 + (text[at] - '0');
+    if (isPoint ? at == first : at - first > 9) return {};
+    if (negative) *number = -*number;
+    if (endsCorner(text, at)) break;
+    if (text[at++] != '/') return {};
+  }
+  if (!endsCorner(text, at)) return {};
+  text.remove_prefix(at);
+  return corner;
+}
+
+/// How many of each the file has, up to some line.
+struct Counts {
+  std::size_t points = 0, uvs = 0, normals = 0;
+};
+
+/// The index from 0 of what the file counts from 1, or backwards from -1 where there are `here` so far; -1 if
+/// there are too few of them.
+std::int32_t indexOf(std::int64_t number, std::size_t here, std::size_t most) {
+  const std::int64_t index = number > 0 ? number - 1 : static_cast<std::int64_t>(here) + number;
+  const bool exists = number != 0 && index >= 0 && index < static_cast<std::int64_t>(most);
+  return exists ? static_cast<std::int32_t>(index) : -1;
 }
 
 /// Without the comment, which may follow on numbers.
@@ -119,20 +134,16 @@ class ObjReader {
       checkBudget();
       line(text);
     });
-    for (const LateFace& late : late_) {
-      part_ = parts_[late.part].get();
-      face(late.corners, late.words);
-    }
+    for (const LateFace& late : late_) face(*parts_[late.part], late.corners);
     finish();
     return std::move(model_);
   }
 
  private:
-  /// A face that uses points which the file gives later.
+  /// A face that uses what the file gives later.
   struct LateFace {
     std::size_t part;
-    std::vector<CornerNumbers> corners;
-    std::vector<std::string_view> words;
+    std::vector<Corner> corners;
   };
 
   // --- lines ---
@@ -154,12 +165,12 @@ class ObjReader {
   bool statement(std::string_view key, std::string_view at, const LineWords& words, std::string_view text) {
     if (key == "v")
       point(text, words);
+    else if (key == "f" || key == "fo")  // an old word for it
+      faceLine(at, words);
     else if (key == "vn")
       normals_.push_back(vector<3>(text, words, "vn", 3));
     else if (key == "vt")
       uv(text, words);
-    else if (key == "f" || key == "fo")  // an old word for it
-      faceLine(at, words);
     else if (key == "usemtl")
       useMaterial(at, words);
     else if (key == "o" || key == "g")
@@ -187,19 +198,20 @@ class ObjReader {
     words = LineWords(withoutComment(words.left()));
     std::size_t count = 0;
     bool good = true;
-    for (std::string_view word = words.next(); !word.empty(); word = words.next(), ++count) {
+    for (; !words.atEnd(); ++count) {
       if (count >= N) {
         warn(text, std::string(key) + ": expected at most " + std::to_string(N) +
                        " numbers, found more; they are ignored");
         break;
       }
-      const auto number = parseNumber(word);
-      const bool fits = number && number->length == word.size() &&
-                        std::abs(number->value) <= std::numeric_limits<float>::max();
-      if (fits) {
-        to[count] = static_cast<float>(number->value);
+      LineWords before = words;
+      const auto number = words.nextNumber();
+      if (number && std::abs(*number) <= std::numeric_limits<float>::max()) {
+        to[count] = static_cast<float>(*number);
         continue;
       }
+      words = before;
+      const std::string_view word = words.next();
       if (good) lose(word, notAFloat(word), leftOut(key));
       good = false;
     }
@@ -208,7 +220,10 @@ class ObjReader {
            "expected " + std::to_string(least) + " numbers after \"" + std::string(key) + "\", found " +
                std::to_string(count),
            leftOut(key));
-    if (!good || count < least) to.fill(std::numeric_limits<float>::quiet_NaN());
+    if (!good || count < least) {
+      to.fill(std::numeric_limits<float>::quiet_NaN());
+      allFinite_ = false;
+    }
     return std::min(count, N);
   }
   static std::string leftOut(std::string_view key) {
@@ -261,7 +276,7 @@ class ObjReader {
 
   Part& part() {
     if (part_) return *part_;
-    const auto [found, fresh] = numbers_.try_emplace({name_, material_}, parts_.size());
+    const auto [found, fresh] = partNumbers_.try_emplace({name_, material_}, parts_.size());
     if (fresh) {
       parts_.push_back(std::make_unique<Part>());
       parts_.back()->name = name_;
@@ -273,60 +288,89 @@ class ObjReader {
 
   void faceLine(std::string_view at, LineWords words) {
     words = LineWords(withoutComment(words.left()));
-    corners_.clear();
-    cornerWords_.clear();
-    bool isLate = false;  // it uses a point that the file has not given yet
-    for (std::string_view word = words.next(); !word.empty() && word[0] != ';'; word = words.next()) {
-      if (word.ends_with(';')) word.remove_suffix(1);
-      const std::optional<CornerNumbers> corner = cornerOf(word);
+    const std::string_view line = words.left();
+    const Counts here{points_.size(), uvs_.size(), normals_.size()};
+    bool isBeyond = false;  // it uses what the file has not given yet
+    numbers_.clear();
+    for (std::string_view left = words.rest(); !left.empty() && left[0] != ';';
+         left = LineWords(left).rest()) {
+      const std::optional<CornerNumbers> corner = takeCorner(left);
       if (!corner)
-        return lose(word,
+        return lose(left,
                     "expected a corner such as 7, 7/8, 7//9 or 7/8/9, found \"" +
-                        std::string(word.substr(0, 40)) + "\"",
+                        std::string(LineWords(left).next().substr(0, 40)) + "\"",
                     "the face is left out", {}, "corner");
-      corners_.push_back(*corner);
-      cornerWords_.push_back(word);
-      isLate = isLate || corner->point > static_cast<std::int64_t>(points_.size());
+      numbers_.push_back(*corner);
+      const auto isLater = [](std::int64_t number, std::size_t count) {
+        return number > static_cast<std::int64_t>(count);
+      };
+      isBeyond |= isLater(corner->point, here.points) || isLater(corner->uv, here.uvs) ||
+                  isLater(corner->normal, here.normals);
     }
-    if (corners_.size() < 3) return warn(at, "a face of fewer than 3 points is left out");
-    if (isLate) {
-      for (CornerNumbers& c : corners_) {  // what counts backwards counts from here
-        const auto fixed = [](std::int64_t n, std::size_t count) {
-          return n < 0 ? std::max<std::int64_t>(n + static_cast<std::int64_t>(count) + 1, 0) : n;
-        };
-        c = {fixed(c.point, points_.size()), fixed(c.uv, uvs_.size()), fixed(c.normal, normals_.size())};
-      }
-      late_.push_back({part().number, corners_, cornerWords_});
-      return;
-    }
-    face(corners_, cornerWords_);
+    if (numbers_.size() < 3) return warn(at, "a face of fewer than 3 points is left out");
+    if (!resolve(line, here, isBeyond ? wholeCounts() : here)) return;
+    if (!smooth_.empty() && corners_.front().normal < 0)
+      warn(std::exchange(smooth_, {}), "smoothing groups are not shown: faces without normals look flat");
+    if (isBeyond)
+      late_.push_back({part().number, corners_});
+    else
+      face(part(), corners_);
   }
 
-  /// Adds it to the part that is current. The words are those of its corners.
-  void face(std::span<const CornerNumbers> corners, std::span<const std::string_view> words) {
-    Part& to = part();
-    found_.clear();
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const CornerNumbers& corner = corners[i];
-      const auto point = absolute(corner.point, points_.size());
-      if (!point)
-        return lose(words[i],
-                    "the face uses point " +
-                        std::string(words[i].substr(0, std::min(words[i].find('/'), 40ul))) + ", but there " +
-                        (points_.size() == 1 ? "is " : "are ") + counted(points_.size(), "point"),
-                    "it is left out", "points are counted from 1, or backwards from -1", "point");
-      const Vec3f& p = points_[static_cast<std::size_t>(*point)];
-      if (!isFinite(Vec3(p))) return;  // the line of the point has its warning
-      const auto uv = absolute(corner.uv, uvs_.size()), normal = absolute(corner.normal, normals_.size());
-      if ((corner.uv != 0 && !uv) || (corner.normal != 0 && !normal))
-        warn(words[i], "normals or uv that the file does not have are left out");
-      found_.push_back({*point, uv.value_or(-1), normal.value_or(-1)});
+  /// Makes corners_ of numbers_, which stand in the line, where the file has `most` in all. False, with a
+  /// warning, if it lacks a point.
+  bool resolve(std::string_view line, const Counts& here, const Counts& most) {
+    corners_.clear();
+    for (const CornerNumbers& n : numbers_) {
+      const Corner corner{indexOf(n.point, here.points, most.points), indexOf(n.uv, here.uvs, most.uvs),
+                          indexOf(n.normal, here.normals, most.normals)};
+      if (corner.point < 0) {
+        loseFace(wordAt(line, corners_.size()), most.points);
+        return false;
+      }
+      if ((n.uv != 0 && corner.uv < 0) || (n.normal != 0 && corner.normal < 0))
+        warn(wordAt(line, corners_.size()), "normals or uv that the file does not have are left out");
+      corners_.push_back(corner);
     }
-    if (!smooth_.empty() && found_.front().normal < 0)
-      warn(std::exchange(smooth_, {}), "smoothing groups are not shown: faces without normals look flat");
-    numbered_.clear();
-    for (const Corner& corner : found_) numbered_.push_back(this->corner(to, corner));
-    appendPolygon(to.mesh, numbered_);
+    return true;
+  }
+
+  void loseFace(std::string_view corner, std::size_t points) {
+    lose(corner,
+         "the face uses point " + std::string(corner.substr(0, std::min(corner.find('/'), 40ul))) +
+             ", but there " + (points == 1 ? "is " : "are ") + counted(points, "point"),
+         "it is left out", "points are counted from 1, or backwards from -1", "point");
+  }
+
+  static std::string_view wordAt(std::string_view line, std::size_t index) {
+    LineWords words(line);
+    for (std::size_t i = 0; i < index; ++i) words.next();
+    const std::string_view word = words.next();
+    return word.substr(0, word.find(';'));
+  }
+
+  /// Those of the whole file, counted when a face first asks.
+  const Counts& wholeCounts() {
+    if (counts_) return *counts_;
+    counts_.emplace();
+    forEachLine(lines_, [&](std::string_view text) {
+      const std::string_view key = LineWords(text).next();
+      counts_->points += sameWord(key, "v");
+      counts_->uvs += sameWord(key, "vt");
+      counts_->normals += sameWord(key, "vn");
+    });
+    return *counts_;
+  }
+
+  /// A face that uses a point which is not finite is left out: the line of the point has its warning.
+  void face(Part& to, std::span<const Corner> corners) {
+    const auto isBad = [&](const Corner& corner) {
+      return !isFinite(Vec3(points_[static_cast<std::size_t>(corner.point)]));
+    };
+    if (!allFinite_ && std::any_of(corners.begin(), corners.end(), isBad)) return;
+    polygon_.clear();
+    for (const Corner& corner : corners) polygon_.push_back(this->corner(to, corner));
+    appendPolygon(to.mesh, polygon_);
   }
 
   std::uint32_t corner(Part& to, const Corner& corner) {
@@ -417,14 +461,15 @@ class ObjReader {
   std::string name_;
   std::string_view material_;
   std::string_view smooth_;  ///< the line of the smoothing group in force; empty for none
-  std::map<std::pair<std::string, std::string_view>, std::size_t> numbers_;  ///< numbers of parts
+  std::map<std::pair<std::string, std::string_view>, std::size_t> partNumbers_;
   std::vector<std::unique_ptr<Part>> parts_;
-  Part* part_ = nullptr;  ///< that of name_ and material_, once known
-  std::vector<CornerNumbers> corners_;
-  std::vector<std::string_view> cornerWords_;
-  std::vector<Corner> found_;
-  std::vector<std::uint32_t> numbered_;
+  Part* part_ = nullptr;                ///< that of name_ and material_, once known
+  std::vector<CornerNumbers> numbers_;  ///< numbers of the face that is being read
+  std::vector<Corner> corners_;         ///< the same, as indices
+  std::vector<std::uint32_t> polygon_;  ///< and as points of its part
   std::vector<LateFace> late_;
+  std::optional<Counts> counts_;
+  bool allFinite_ = true;                        ///< so far
   std::vector<std::string_view> materialFiles_;  ///< all that a line names, as one
   MeshRepairs repairs_;
   std::optional<Message> lost_;  ///< the first that costs a face

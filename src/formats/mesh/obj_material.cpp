@@ -107,79 +107,108 @@ ImageMap toMap(std::string file, const tinyobj::texture_option_t& option) {
   return map;
 }
 
-/// Normals where they are given, or else the heights of `bump`, or else those of `disp`: exporters bake one
-/// from the other.
-template <class Map>
-void addRelief(const tinyobj::material_t& mtl, const Map& map, const MtlPictures& pictures,
-               Material& material) {
-  const bool bumps = mtl.normal_texname.empty() && !mtl.bump_texname.empty();
-  const bool moves = mtl.normal_texname.empty() && !bumps && !mtl.displacement_texname.empty();
-  if (!mtl.normal_texname.empty()) {
-    ImageMap normals = map(mtl.normal_texname, mtl.normal_texopt);
-    normals.relief = Relief::normals;
-    setTexture(material.textures, "bump", TextureNode{.model = std::move(normals)});
-    material.bump = 1;
-  } else if (bumps || moves) {
-    const auto& option = bumps ? mtl.bump_texopt : mtl.displacement_texopt;
-    setTexture(material.textures, "bump",
-               TextureNode{.model = map(bumps ? mtl.bump_texname : mtl.displacement_texname, option)});
-    const Real strength = option.bump_multiplier;
-    material.bump = std::isfinite(strength) ? strength : 1;
-  }
-  if (!mtl.normal_texname.empty() && !mtl.bump_texname.empty()) pictures.unused(mtl.bump_texname);
-  if (!moves && !mtl.displacement_texname.empty()) pictures.unused(mtl.displacement_texname);
-}
+/// A statement of a map: its keyword, and what it says.
+struct MtlMap {
+  std::string_view keyword;
+  const std::string& picture;
+  const tinyobj::texture_option_t& option;
 
-/// Puts the pictures of the MTL material on it.
-void addTextures(const tinyobj::material_t& mtl, const MtlPictures& pictures, Material& material) {
-  const auto* phong = material.model.as<Phong>();
-  const Color ambient = phongOf(material.model).ambient;
-  const auto map = [&](const std::string& picture, const tinyobj::texture_option_t& option) {
-    ImageMap made = toMap(pictures.nameOf(picture), option);
-    made.file.place = pictures.placeOf(picture);
+  bool given() const { return !picture.empty(); }
+};
+
+/// Puts the pictures of an MTL material on one of Trace.
+class MtlTextures {
+ public:
+  MtlTextures(const tinyobj::material_t& mtl, const MtlPictures& pictures, Material& material)
+      : mtl_(mtl), pictures_(pictures), material_(material) {}
+
+  void add() {
+    const auto* phong = material_.model.as<Phong>();
+    const Color ambient = phongOf(material_.model).ambient;
+    put(phong ? kDiffuse : kColor, diffuse_);
+    put("emissive", {"map_Ke", mtl_.emissive_texname, mtl_.emissive_texopt});
+    if (phong) {
+      put("specular", specular_);
+      put("shininess", shininess_);
+      if (!isBlack(phong->reflective)) put("reflective", specular_);
+    } else if (material_.model.is<RoughGlass>()) {
+      put("roughness", roughness_);
+      for (const MtlMap& other : {sheen_, specular_, shininess_}) leaveOut(other);
+    } else {
+      put("metallic", {"map_Pm", mtl_.metallic_texname, mtl_.metallic_texopt});
+      put("roughness", roughness_);
+      put("sheen", sheen_);
+      put("specular_color", specular_);
+      leaveOut(shininess_);
+    }
+    // A painted surface is painted in the ambient light too.
+    if (ambient_.given())
+      put("ambient", ambient_);
+    else if (!isBlack(ambient))
+      put("ambient", diffuse_);
+    addRelief();
+    addHoles();
+  }
+
+ private:
+  ImageMap pictureOf(const MtlMap& map) const {
+    ImageMap made = toMap(pictures_.nameOf(map.picture), map.option);
+    made.file.place = pictures_.placeOf(map.keyword, map.picture);
     return made;
-  };
-  const auto put = [&](std::string_view field, const std::string& picture,
-                       const tinyobj::texture_option_t& option) {
-    if (!picture.empty()) setTexture(material.textures, field, TextureNode{.model = map(picture, option)});
-  };
-  put(phong ? kDiffuse : kColor, mtl.diffuse_texname, mtl.diffuse_texopt);
-  put("emissive", mtl.emissive_texname, mtl.emissive_texopt);
-  if (phong) {
-    put("specular", mtl.specular_texname, mtl.specular_texopt);
-    put("shininess", mtl.specular_highlight_texname, mtl.specular_highlight_texopt);
-    if (!isBlack(phong->reflective)) put("reflective", mtl.specular_texname, mtl.specular_texopt);
-  } else if (material.model.is<RoughGlass>()) {
-    put("roughness", mtl.roughness_texname, mtl.roughness_texopt);
-    for (const std::string* other :
-         {&mtl.sheen_texname, &mtl.specular_texname, &mtl.specular_highlight_texname})
-      if (!other->empty()) pictures.unused(*other);
-  } else {
-    put("metallic", mtl.metallic_texname, mtl.metallic_texopt);
-    put("roughness", mtl.roughness_texname, mtl.roughness_texopt);
-    put("sheen", mtl.sheen_texname, mtl.sheen_texopt);
-    put("specular_color", mtl.specular_texname, mtl.specular_texopt);
-    if (!mtl.specular_highlight_texname.empty()) pictures.unused(mtl.specular_highlight_texname);
   }
-  // A painted surface is painted in the ambient light too.
-  if (!mtl.ambient_texname.empty())
-    put("ambient", mtl.ambient_texname, mtl.ambient_texopt);
-  else if (!isBlack(ambient))
-    put("ambient", mtl.diffuse_texname, mtl.diffuse_texopt);
+  void put(std::string_view field, const MtlMap& map) {
+    if (map.given()) setTexture(material_.textures, field, TextureNode{.model = pictureOf(map)});
+  }
+  void leaveOut(const MtlMap& map) const {
+    if (map.given()) pictures_.unused(map.keyword, map.picture);
+  }
 
-  addRelief(mtl, map, pictures, material);
+  /// Normals where they are given, or else the heights of `bump`, or else those of `disp`: exporters bake one
+  /// from the other.
+  void addRelief() {
+    const MtlMap normals{"norm", mtl_.normal_texname, mtl_.normal_texopt},
+        bump{"bump", mtl_.bump_texname, mtl_.bump_texopt},
+        disp{"disp", mtl_.displacement_texname, mtl_.displacement_texopt};
+    if (normals.given()) {
+      ImageMap map = pictureOf(normals);
+      map.relief = Relief::normals;
+      setTexture(material_.textures, "bump", TextureNode{.model = std::move(map)});
+      material_.bump = 1;
+      leaveOut(bump);
+      return leaveOut(disp);
+    }
+    const MtlMap& heights = bump.given() ? bump : disp;
+    put("bump", heights);
+    if (heights.given()) {
+      const Real strength = heights.option.bump_multiplier;
+      material_.bump = std::isfinite(strength) ? strength : 1;
+    }
+    if (bump.given()) leaveOut(disp);
+  }
 
-  const bool own = !mtl.alpha_texname.empty();
-  if (!own && mtl.diffuse_texname.empty()) return;
-  ImageMap opacity =
-      own ? map(mtl.alpha_texname, mtl.alpha_texopt) : map(mtl.diffuse_texname, mtl.diffuse_texopt);
-  const bool oneChannel = own && opacity.channel != Channel::color;
-  if (const bool transparent = pictures.isTransparent(opacity.file.file); !oneChannel && transparent)
-    opacity.channel = Channel::alpha;
-  else if (!own)
-    return;
-  cutOut(material, TextureNode{.model = std::move(opacity)}, material.opacity);
-}
+  void addHoles() {
+    const MtlMap own{"map_d", mtl_.alpha_texname, mtl_.alpha_texopt};
+    const MtlMap& map = own.given() ? own : diffuse_;
+    if (!map.given()) return;
+    ImageMap opacity = pictureOf(map);
+    const bool oneChannel = own.given() && opacity.channel != Channel::color;
+    if (!oneChannel && pictures_.isTransparent(opacity.file.file))
+      opacity.channel = Channel::alpha;
+    else if (!own.given())
+      return;
+    cutOut(material_, TextureNode{.model = std::move(opacity)}, material_.opacity);
+  }
+
+  const tinyobj::material_t& mtl_;
+  const MtlPictures& pictures_;
+  Material& material_;
+  const MtlMap ambient_{"map_Ka", mtl_.ambient_texname, mtl_.ambient_texopt},
+      diffuse_{"map_Kd", mtl_.diffuse_texname, mtl_.diffuse_texopt},
+      specular_{"map_Ks", mtl_.specular_texname, mtl_.specular_texopt},
+      shininess_{"map_Ns", mtl_.specular_highlight_texname, mtl_.specular_highlight_texopt},
+      roughness_{"map_Pr", mtl_.roughness_texname, mtl_.roughness_texopt},
+      sheen_{"map_Ps", mtl_.sheen_texname, mtl_.sheen_texopt};
+};
 
 bool isSound(const Material& material) {
   const Phong phong = phongOf(material);
@@ -199,7 +228,7 @@ bool isSound(const Material& material) {
 std::optional<Material> materialOf(const tinyobj::material_t& mtl, const MtlPictures& pictures) {
   Material material = plainOf(mtl);
   if (!isSound(material)) return {};
-  addTextures(mtl, pictures, material);
+  MtlTextures(mtl, pictures, material).add();
   return material;
 }
 

@@ -33,7 +33,7 @@ void ObjMaterials::readFile(const std::string& name, const Place& place) {
     const NamedFile found = namedFile(file_, name);
     const std::string text = readTextBeside(file_, name, model_.inputs, messages_);
     if (!found.remark.empty()) messages_.warn(place, "materials: " + found.remark);
-    const std::string plain = checkedMtl(found.path, text, unused_, places_, warnings_);
+    const std::string plain = checkedMtl(found.path, text, unused_, maps_, warnings_);
     ByteStream stream(plain);
     std::string warnings, errors;
     tinyobj::LoadMtl(&numbers_, &materials_, &stream, &warnings, &errors);
@@ -58,10 +58,16 @@ void ObjMaterials::addMaterials(const std::string& name, const Place& place) {
           place, "several materials of " + name + " are called \"" + material.name + "\"; the last counts");
   for (const tinyobj::material_t& material : materials_) notePictures(material, path);
   const MtlPictures pictures{
-      [&](const std::string& picture) { return placeOf(picture, path); },
+      [&](std::string_view keyword, const std::string& picture) {
+        const MapPlaces::Line* line = maps_.find(keyword, picture);
+        return line ? line->place : Place{.file = path};
+      },
       [&](const std::string& picture) { return pictureName(name, picture); },
       [&](const std::string& picture) { return kindOfPicture(file_, picture).transparent; },
-      [&](const std::string& picture) { unused_.note(picture, placeOf(picture, path)); }};
+      [&](std::string_view keyword, const std::string& picture) {
+        const MapPlaces::Line* line = maps_.find(keyword, picture);
+        unused_.note(picture, line ? line->place : Place{.file = path}, line ? line->keyword : keyword);
+      }};
   for (std::size_t i = model_.materials.size(); i < materials_.size(); ++i) {
     auto material = materialOf(materials_[i], pictures);
     if (!material)
@@ -69,12 +75,6 @@ void ObjMaterials::addMaterials(const std::string& name, const Place& place) {
                      "material \"" + materials_[i].name + "\" has numbers that are not finite");
     model_.materials.push_back(material ? std::move(*material) : plainMaterial());
   }
-}
-
-/// Where the file of materials names the picture first.
-Place ObjMaterials::placeOf(const std::string& picture, const std::string& materialFile) const {
-  const auto found = places_.find(picture);
-  return found == places_.end() ? Place{.file = materialFile} : found->second;
 }
 
 /// As seen from the mesh's file. Exporters name pictures as seen from the materials' file, or from the

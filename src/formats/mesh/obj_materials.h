@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/mesh/mtl_lines.h"
 #include "formats/model.h"
 #include "formats/textures.h"
 #include "formats/warnings.h"
@@ -47,7 +48,6 @@ class ObjMaterials {
  private:
   void readFile(const std::string& name, const Place& place);
   void addMaterials(const std::string& name, const Place& place);
-  Place placeOf(const std::string& picture, const std::string& materialFile) const;
   std::string pictureName(const std::string& materialFile, const std::string& picture) const;
   void notePictures(const tinyobj::material_t& m, const std::string& materialFile);
   void warnUndefined();
@@ -61,7 +61,7 @@ class ObjMaterials {
   UnusedTextures unused_;
   std::vector<tinyobj::material_t> materials_;
   std::map<std::string, int> numbers_;
-  std::map<std::string, Place, std::less<>> places_;  ///< places of the names of pictures
+  MapPlaces maps_;
   std::set<std::string> readFiles_;
   std::set<std::string_view> undefined_;
   bool missing_ = false;  ///< a file of materials

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,22 +21,39 @@ class LineWords {
   /// Empty at the end.
   std::string_view next() {
     skip();
-    const std::string_view word = rest_.substr(0, rest_.find_first_of(kBlank));
-    rest_.remove_prefix(word.size());
+    std::size_t length = 0;
+    while (length < rest_.size() && !isBlank(rest_[length])) ++length;
+    const std::string_view word = rest_.substr(0, length);
+    rest_.remove_prefix(length);
     return word;
   }
   std::string_view peek() const { return LineWords(*this).next(); }
+  bool atEnd() { return skip(), rest_.empty(); }
+  /// The number of the next word; none, and the word stays, if it is no number or more than one.
+  std::optional<double> nextNumber() {
+    skip();
+    const auto number = parseNumber(rest_);
+    if (!number || (number->length < rest_.size() && !isBlank(rest_[number->length]))) return {};
+    rest_.remove_prefix(number->length);
+    return number->value;
+  }
   /// All that is left.
   std::string_view left() const { return rest_; }
   /// The same, without the blanks around it.
   std::string_view rest() {
     skip();
-    return rest_.substr(0, rest_.find_last_not_of(kBlank) + 1);
+    std::size_t length = rest_.size();
+    while (length > 0 && isBlank(rest_[length - 1])) --length;
+    return rest_.substr(0, length);
   }
 
  private:
-  static constexpr std::string_view kBlank = " \t\r";
-  void skip() { rest_.remove_prefix(std::min(rest_.find_first_not_of(kBlank), rest_.size())); }
+  static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+  void skip() {
+    std::size_t blanks = 0;
+    while (blanks < rest_.size() && isBlank(rest_[blanks])) ++blanks;
+    rest_.remove_prefix(blanks);
+  }
 
   std::string_view rest_;
 };

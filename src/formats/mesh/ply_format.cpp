@@ -40,6 +40,9 @@ class PlyReader {
       : file_(file), messages_(messages), header_(readHeader(file, bytes)), body_(file, bytes, header_) {}
 
   Model read() {
+    for (const auto& [word, where] : header_.unknown)
+      warnings_.warn(where, "a line of the header is no comment, and is ignored: \"" + word + "\"", {},
+                     "header");
     for (const Element& element : header_.elements)
       if (sameWord(element.name, "vertex")) vertices_ = element.count;
     for (const Element& element : header_.elements) {
@@ -52,8 +55,8 @@ class PlyReader {
       } else {
         body_.skip(element);
         if (element.count > 0)
-          warnings_.warn(place(), "elements \"" + element.name.substr(0, 40) +
-                                      "\" are not shown: " + std::to_string(element.count));
+          warnings_.warn(element.place, "elements \"" + element.name.substr(0, 40) +
+                                            "\" are not shown: " + std::to_string(element.count));
       }
     }
     if (!hasVertices_) fail("expected an element \"vertex\"");
@@ -61,7 +64,7 @@ class PlyReader {
       fail("expected an element \"face\" or \"tristrips\": this file holds points, and no surface");
     build();
     if (const std::size_t left = body_.left(); left > 0)
-      messages_.warn(place(), "bytes after the last element are ignored: " + std::to_string(left));
+      messages_.warn(body_.nextPlace(), "bytes after the last element are ignored: " + std::to_string(left));
     if (body_.surplus() > 0)
       messages_.warn(body_.firstSurplus(),
                      "expected as many values as the header says, found more; they are ignored (in " +
@@ -104,9 +107,9 @@ class PlyReader {
       const auto has = [&](const char* name) { return element.find({name}) >= 0; };
       const auto count = std::count_if(names.begin(), names.end(), has);
       if (count == 1 || count == 2)
-        messages_.warn(place(), std::string("expected all of ") + names[0] + ", " + names[1] + " and " +
-                                    names[2] + " of a vertex, found " + std::to_string(count) +
-                                    "; they are ignored");
+        messages_.warn(element.place, std::string("expected all of ") + names[0] + ", " + names[1] + " and " +
+                                          names[2] + " of a vertex, found " + std::to_string(count) +
+                                          "; they are ignored");
     }
     columns_.assign(element.properties.size(), {});
     mesh_.points.resize(element.count);
@@ -133,23 +136,30 @@ class PlyReader {
     noteUnused(element, columns_);
     body_.readColumns(element, columns_);
     for (std::size_t i = 0; i < uvs.size(); i += 2) mesh_.uvs.push_back({uvs[i], uvs[i + 1]});
-    if (colored)
-      mesh_.materials =
-          palette(colors, element.properties[static_cast<std::size_t>(element.find(kColors[0]))].type);
-    if (!alpha.empty()) noteAlpha(element, alpha, element.find({"alpha"}));
+    if (colored) mesh_.materials = palette(colors, propertyOf(element, kColors[0]));
+    if (!alpha.empty()) noteAlpha(element, alpha);
   }
 
   /// Warns of the properties that nothing was made of; `used` are others than those of the columns.
   void noteUnused(const Element& element, std::span<const Column> columns,
                   std::initializer_list<int> used = {}) {
     std::string names;
+    const Property* first = nullptr;
     for (std::size_t i = 0; i < columns.size() && element.count > 0; ++i) {
       const bool isUsed = columns[i].to || element.properties[i].name == "texnumber" ||
                           std::find(used.begin(), used.end(), static_cast<int>(i)) != used.end();
-      if (!isUsed) names += (names.empty() ? "" : ", ") + element.properties[i].name.substr(0, 40);
+      if (isUsed) continue;
+      if (!first) first = &element.properties[i];
+      names += (names.empty() ? "" : ", ") + element.properties[i].name.substr(0, 40);
     }
-    if (!names.empty())
-      warnings_.warn(place(), "properties of \"" + element.name.substr(0, 40) + "\" are not shown: " + names);
+    if (first)
+      warnings_.warn(first->place,
+                     "properties of \"" + element.name.substr(0, 40) + "\" are not shown: " + names);
+  }
+
+  /// Precondition: it has one of these names.
+  static const Property& propertyOf(const Element& element, const std::vector<std::string_view>& names) {
+    return element.properties[static_cast<std::size_t>(element.find(names))];
   }
 
   void want(int property, Column column) { columns_[static_cast<std::size_t>(property)] = column; }
@@ -170,14 +180,15 @@ class PlyReader {
 
   /// Whole numbers count from 0 to the most their type holds, others from 0 to 1. Equal colours become one.
   /// The number of each in the model's colours.
-  std::vector<std::uint32_t> palette(const std::vector<Vec3f>& colors, Type type) {
+  std::vector<std::uint32_t> palette(const std::vector<Vec3f>& colors, const Property& property) {
+    const Type type = property.type;
     const double scale = type == Type::uint8 ? 1.0 / 255 : type == Type::uint16 ? 1.0 / 65535 : 1;
     const auto most = static_cast<float>(1 / scale);
     const auto outside = std::count_if(colors.begin(), colors.end(), [&](const Vec3f& c) {
       return !(min(c.x, min(c.y, c.z)) >= 0 && max(c.x, max(c.y, c.z)) <= most);
     });
     if (outside > 0)
-      messages_.warn(place(),
+      messages_.warn(property.place,
                      "colours that are not from 0 to " + toText(1 / scale) + ": " + std::to_string(outside));
     Unique<Vec3f> unique;
     std::vector<std::uint32_t> numbers;
@@ -191,13 +202,14 @@ class PlyReader {
   }
 
   /// Warns of transparency, which the mesh has no place for, if there is any.
-  void noteAlpha(const Element& element, const std::vector<float>& alpha, int property) {
-    const Type type = element.properties[static_cast<std::size_t>(property)].type;
+  void noteAlpha(const Element& element, const std::vector<float>& alpha) {
+    const Property& property = propertyOf(element, {"alpha"});
+    const Type type = property.type;
     const float most = type == Type::uint8 ? 255 : type == Type::uint16 ? 65535 : 1;
     const auto clear = std::count_if(alpha.begin(), alpha.end(), [&](float a) { return a < most; });
     if (clear > 0)
-      warnings_.warn(place(), "the transparency of elements \"" + element.name +
-                                  "\" is left out: " + std::to_string(clear));
+      warnings_.warn(property.place, "the transparency of elements \"" + element.name +
+                                         "\" is left out: " + std::to_string(clear));
   }
 
   // --- faces ---
@@ -228,7 +240,8 @@ class PlyReader {
     if (lists.numbers >= 0 && !element.properties[static_cast<std::size_t>(lists.numbers)].isList)
       lists.numbers = -1;
     if (const int number = element.find({"texnumber"}); number >= 0 && header_.textures.size() > 1)
-      warnings_.warn(place(), "faces of several textures show the first: texnumber is ignored");
+      warnings_.warn(element.properties[static_cast<std::size_t>(number)].place,
+                     "faces of several textures show the first: texnumber is ignored");
     noteUnused(element, columns, {lists.items, lists.numbers});
     hasFaceUvs_ = lists.numbers >= 0;
     const bool direct = hasVertices_ && !hasFaceUvs_ && !hasFaceColors_;
@@ -245,17 +258,18 @@ class PlyReader {
         keep(corners, uvs, number);
     });
     if (unusable_ > 0)
-      messages_.warn(place(), "faces of fewer than 3 points are left out: " + std::to_string(unusable_));
+      messages_.warn(firstUnusable_,
+                     "faces of fewer than 3 points are left out: " + std::to_string(unusable_));
     if (hasFaceColors_) {
-      faceColors_ =
-          palette(colors, element.properties[static_cast<std::size_t>(element.find(kColors[0]))].type);
-      if (!alpha.empty()) noteAlpha(element, alpha, element.find({"alpha"}));
+      faceColorsAt_ = propertyOf(element, kColors[0]).place;
+      faceColors_ = palette(colors, propertyOf(element, kColors[0]));
+      if (!alpha.empty()) noteAlpha(element, alpha);
     }
   }
 
   bool isGood(std::span<const std::uint32_t> corners, std::size_t number) {
     if (corners.size() < 3) {
-      ++unusable_;
+      if (unusable_++ == 0) firstUnusable_ = body_.place();
       return false;
     }
     for (const std::uint32_t corner : corners)
@@ -271,7 +285,7 @@ class PlyReader {
     corners_.insert(corners_.end(), corners.begin(), corners.end());
     if (!hasFaceUvs_) return;
     const bool fits = uvs.size() == 2 * corners.size();
-    wrongUvs_ += !fits && !uvs.empty();
+    if (!fits && !uvs.empty() && wrongUvs_++ == 0) firstWrongUvs_ = body_.place();
     for (std::size_t i = 0; i < corners.size(); ++i)
       cornerUvs_.push_back(fits ? Vec2{uvs[2 * i], uvs[2 * i + 1]} : Vec2{});
   }
@@ -280,11 +294,11 @@ class PlyReader {
   /// each corner is a point for itself, unless it is the same as another.
   void build() {
     if (wrongUvs_ > 0)
-      warnings_.warn(place(), "faces without a uv for each corner show the corner of the picture: " +
-                                  std::to_string(wrongUvs_));
+      warnings_.warn(firstWrongUvs_, "faces without a uv for each corner show the corner of the picture: " +
+                                         std::to_string(wrongUvs_));
     if (hasFaceColors_ && !mesh_.materials.empty()) {
       hasFaceColors_ = false;
-      warnings_.warn(place(), "colours of faces are left out: their points have some");
+      warnings_.warn(faceColorsAt_, "colours of faces are left out: their points have some");
     }
     if (!hasFaceUvs_ && !hasFaceColors_) {
       for (const Face& face : faces_)
@@ -364,6 +378,7 @@ class PlyReader {
   std::optional<Message> lost_;  ///< the first that costs a face
   std::size_t vertices_ = 0;     ///< that the header counts
   std::size_t unusable_ = 0, wrongUvs_ = 0;
+  Place firstUnusable_{}, firstWrongUvs_{}, faceColorsAt_{};
   bool hasVertices_ = false, hasFaces_ = false, hasFaceColors_ = false, hasFaceUvs_ = false;
   std::vector<Face> faces_;  ///< that wait
   std::vector<std::uint32_t> corners_, faceColors_;

@@ -100,8 +100,7 @@ class HeaderReader {
       else if (is(0, "property"))
         readProperty();
       else
-        fail("expected a line of a PLY header (format, element, property, comment or end_header), found \"" +
-             std::string(words_[0].substr(0, 40)) + "\"");
+        readUnknown();
     }
     if (!format) fail("expected a line \"format ...\" before the end of the header");
     header_.end = at_;
@@ -136,7 +135,18 @@ class HeaderReader {
     const auto start = static_cast<std::size_t>(words_[2].data() - bytes_.data());
     std::string_view name = bytes_.substr(start, at_ - start);
     name = name.substr(0, name.find_last_not_of(" \t\r\n") + 1);
-    header_.textures.emplace_back(std::string(name), placeAt(file_, bytes_.substr(0, at_), lineStart_));
+    header_.textures.emplace_back(std::string(name), linePlace());
+  }
+
+  /// A line whose first word is nearly a keyword is a mistake; any other is taken for a comment.
+  void readUnknown() {
+    constexpr std::array<std::string_view, 5> kKeywords{"format", "element", "property", "comment",
+                                                        "end_header"};
+    const std::string word(words_[0].substr(0, 40));
+    if (!nearest(word, kKeywords).empty() || header_.unknown.size() >= kMostProperties)
+      fail("expected a line of a PLY header (format, element, property, comment or end_header), found \"" +
+           word + "\"");
+    header_.unknown.emplace_back(word, linePlace());
   }
 
   void readFormat() {
@@ -159,7 +169,8 @@ class HeaderReader {
     if (!number || number->length != words_[2].size() || !(number->value >= 0 && number->value < 1e15) ||
         number->value != std::floor(number->value))
       fail("expected a number of elements, found \"" + std::string(words_[2].substr(0, 40)) + "\"");
-    header_.elements.push_back({std::string(words_[1]), static_cast<std::size_t>(number->value), {}});
+    header_.elements.push_back(
+        {std::string(words_[1]), static_cast<std::size_t>(number->value), {}, linePlace()});
   }
 
   void readProperty() {
@@ -170,7 +181,7 @@ class HeaderReader {
           "expected a type and a name, as in \"property float x\" or \"property list uchar int "
           "vertex_indices\"");
     Property property{std::string(words_[isList ? 4 : 2]), type(words_[isList ? 3 : 1]), isList,
-                      isList ? type(words_[2]) : Type::uint8};
+                      isList ? type(words_[2]) : Type::uint8, linePlace()};
     std::vector<Property>& all = header_.elements.back().properties;
     for (const Property& before : all)
       if (before.name == property.name)
@@ -185,9 +196,8 @@ class HeaderReader {
     fail("expected a type, as in float or uchar, found \"" + std::string(word.substr(0, 40)) + "\"");
   }
 
-  [[noreturn]] void fail(std::string what) const {
-    throw Error(Fault::scene, placeAt(file_, bytes_.substr(0, at_), lineStart_), std::move(what));
-  }
+  [[noreturn]] void fail(std::string what) const { throw Error(Fault::scene, linePlace(), std::move(what)); }
+  Place linePlace() const { return placeAt(file_, bytes_.substr(0, at_), lineStart_); }
 
   const std::string& file_;
   std::string_view bytes_;
@@ -229,6 +239,11 @@ Body::Body(const std::string& file, std::string_view bytes, const Header& header
 Place Body::place() const {
   return encoding_ == Encoding::text ? placeAt(file_, bytes_, std::min(rowAt_, bytes_.size()))
                                      : Place{file_, 0, 0, {}};
+}
+
+Place Body::nextPlace() const {
+  if (encoding_ != Encoding::text) return {file_, 0, 0, {}};
+  return placeAt(file_, bytes_, std::min(bytes_.find_first_not_of(" \t\r\n", at_), bytes_.size()));
 }
 
 void Body::beginRow() {

@@ -27,12 +27,14 @@ struct Property {
   Type type;  ///< type of the number, or of a list's items
   bool isList = false;
   Type countType = Type::uint8;  ///< count type of a list
+  Place place{};                 ///< its line in the header
 };
 
 struct Element {
   std::string name;
   std::size_t count = 0;
   std::vector<Property> properties;
+  Place place{};  ///< its line in the header
 
   /// The index of the first of these properties that it has, or -1.
   int find(const std::vector<std::string_view>& names) const;
@@ -45,6 +47,8 @@ struct Header {
   std::size_t end = 0;  ///< offset of the body
   std::vector<std::pair<std::string, Place>>
       textures;  ///< that comments name, as scanners' programs write them
+  /// Lines that are none of a header, as some programs write their names.
+  std::vector<std::pair<std::string, Place>> unknown;
 };
 
 /// Throws Error(Fault::scene).
@@ -84,6 +88,8 @@ class Body {
   [[noreturn]] void fail(std::string what) const;
   /// Where the row begins that was read last; in a text.
   Place place() const;
+  /// Where the next value is; in a text.
+  Place nextPlace() const;
 
   /// Rows of a text behind whose values others stand on the same line, which are skipped.
   std::size_t surplus() const { return surplus_; }

@@ -48,28 +48,39 @@ bool isText(std::string_view bytes) {
 /// Collects the facets of one solid.
 class Solid {
  public:
-  /// The corners of a facet whose normal the file says follow. It may be 0, for nothing.
-  void facet(const Vec3f& normal) { normals_.push_back(normal); }
+  /// The corners of a facet follow whose normal the file says, which may be 0 for nothing; and where it
+  /// stands.
+  void facet(const Vec3f& normal, std::size_t at) {
+    normals_.push_back(normal);
+    places_.push_back(at);
+  }
   void corner(Vec3f p) {
     p = {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};  // no negative zero: it would not equal the other
     corners_.push_back(points_.number(p));
   }
-  /// Warns of facets whose corners run the other way round than their normals say; they are turned.
+  /// Facets whose corners run the other way round than their normals say; they are turned.
   std::size_t turned() const { return turned_; }
+  /// Where the first of those stands.
+  std::size_t firstTurned() const { return firstTurned_; }
 
-  void finish(std::string name, const Place& place, Model& model, MeshRepairs& repairs) {
+  /// `placeOf` gives the place of a byte.
+  template <class PlaceOf>
+  void finish(std::string name, const Place& place, const PlaceOf& placeOf, Model& model,
+              MeshRepairs& repairs) {
     MeshData mesh;
+    std::optional<std::size_t> firstToRepair;
     mesh.points = points_.keys();
     for (std::size_t i = 0; i + 2 < corners_.size(); i += 3) {
       mesh.triangles.push_back({corners_[i], corners_[i + 1], corners_[i + 2]});
       const Vec3 normal(normals_[i / 3]);
       const Vec3 face = faceNormal(mesh, static_cast<std::uint32_t>(i / 3));
+      if (!(length(face) > 0) && !firstToRepair) firstToRepair = places_[i / 3];
       const Real cosine = dot(normal, face);
       if (!(cosine < -0.5 * length(normal) * length(face))) continue;
       std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
-      ++turned_;
+      if (turned_++ == 0) firstTurned_ = places_[i / 3];
     }
-    repairs.check(mesh, place);
+    repairs.check(mesh, firstToRepair ? placeOf(*firstToRepair) : place);
     model.objects.push_back({std::move(name),
                              Mesh{std::make_shared<const MeshData>(std::move(mesh))},
                              {},
@@ -81,7 +92,8 @@ class Solid {
   Unique<Vec3f> points_;
   std::vector<std::uint32_t> corners_;
   std::vector<Vec3f> normals_;
-  std::size_t turned_ = 0;
+  std::vector<std::size_t> places_;
+  std::size_t turned_ = 0, firstTurned_ = 0;
 };
 
 void warnOfTurned(std::size_t turned, const Place& place, Messages& messages) {
@@ -106,7 +118,7 @@ Model readBinary(const Place& place, std::string_view bytes, MeshRepairs& repair
   std::size_t colored = 0;
   for (std::size_t at = kHeader; at < end; at += kFacet) {
     colored += bytes[at + kFacet - 2] != 0 || bytes[at + kFacet - 1] != 0;
-    solid.facet(vectorAt(bytes.data() + at));
+    solid.facet(vectorAt(bytes.data() + at), at);
     for (std::size_t corner = 1; corner <= 3; ++corner)
       solid.corner(vectorAt(bytes.data() + at + 12 * corner));
   }
@@ -116,7 +128,8 @@ Model readBinary(const Place& place, std::string_view bytes, MeshRepairs& repair
   if (bytes.substr(0, kHeader).find("COLOR=") != bytes.npos)
     messages.warn(place, "the colour of the header, COLOR=, is not shown");
   Model model;
-  solid.finish("", place, model, repairs);
+  solid.finish(
+      "", place, [&](std::size_t) { return place; }, model, repairs);
   warnOfTurned(solid.turned(), place, messages);
   return model;
 }
@@ -142,7 +155,7 @@ class TextReader {
       messages_.warn(why.place, "facets that are not a normal and three corners are left out: " +
                                     std::to_string(broken_) + ", the first here: " + why.what);
     }
-    warnOfTurned(turned_, place_, messages_);
+    warnOfTurned(turned_, words_.placeAt(firstTurned_), messages_);
     return std::move(model_);
   }
 
@@ -163,12 +176,15 @@ class TextReader {
       }
     }
     words_.line();  // the name again
-    solid.finish(std::move(name), place_, model_, repairs_);
+    solid.finish(
+        std::move(name), place_, [&](std::size_t at) { return words_.placeAt(at); }, model_, repairs_);
+    if (turned_ == 0) firstTurned_ = solid.firstTurned();
     turned_ += solid.turned();
   }
 
   /// Throws Error(Fault::scene), and adds nothing, where it is not as it should be.
   void readFacet(Solid& solid) {
+    const std::size_t start = words_.start();
     expect("normal");
     const Vec3f normal = vector("a normal's three numbers");
     expect("outer");
@@ -180,7 +196,7 @@ class TextReader {
     }
     expect("endloop");
     expect("endfacet");
-    solid.facet(normal);
+    solid.facet(normal, start);
     for (const Vec3f& corner : corners) solid.corner(corner);
     ++facets_;
   }
@@ -199,7 +215,7 @@ class TextReader {
   Words words_;
   MeshRepairs& repairs_;
   Messages& messages_;
-  std::size_t facets_ = 0, broken_ = 0, turned_ = 0;
+  std::size_t facets_ = 0, broken_ = 0, turned_ = 0, firstTurned_ = 0;
   std::optional<Error> first_;  ///< first of the broken facets
   Model model_;
 };

@@ -162,6 +162,28 @@ class Reader {
                      " there");
     return *held;
   }
+  /// The node of the name that stands in place of a block; null, and nothing read, before a block. `what`:
+  /// "a finish".
+  template <class T>
+  Ref<T> namedInPlace(const std::string& what) {
+    if (peek().isMark("{")) return nullptr;
+    const Token name = next();
+    const Slot slot = namedSlot(name);
+    const auto* held = slot ? slot->as<Ref<T>>() : nullptr;
+    if (!held) fail(name, "expected " + what + ", found " + describe(name));
+    return *held;
+  }
+  /// Copies the node of a name to `node`, if one is next.
+  template <class T>
+  bool takesNamed(T& node) {
+    const Token name = peek();
+    const Value* value = name.is(Token::Kind::name) ? valueOf(name) : nullptr;
+    const auto* held = value ? value->as<Ref<T>>() : nullptr;
+    if (!held) return false;
+    node = **held;
+    next();
+    return true;
+  }
   Numbers query(const Token& function);
   Numbers colorAt(const Ref<PigmentNode>& pigment, const Vec3& p);
 

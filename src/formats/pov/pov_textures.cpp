@@ -32,11 +32,72 @@ std::size_t listSize(std::string_view kind) {
   return kind == "triangular" ? 6 : 0;
 }
 
+/// A word that a number or a vector follows, and the field that it goes to; null for a number that changes
+/// nothing here.
+template <class Node, class Held>
+struct Word {
+  std::string_view word;
+  Held Node::*field = nullptr;
+};
+
+constexpr Word<PatternNode, Real> kPatternNumbers[]{{"omega", &PatternNode::omega},
+                                                    {"lambda", &PatternNode::lambda},
+                                                    {"frequency", &PatternNode::frequency},
+                                                    {"phase", &PatternNode::phase},
+                                                    {"agate_turb", &PatternNode::number},
+                                                    {"mortar", &PatternNode::number},
+                                                    {"metric"},
+                                                    {"offset"},
+                                                    {"control0"},
+                                                    {"control1"},
+                                                    {"noise_generator"},
+                                                    {"accuracy"},
+                                                    {"interpolate"}};
+constexpr Word<PatternNode, Vec3> kPatternVectors[]{{"turbulence", &PatternNode::turbulence},
+                                                    {"brick_size", &PatternNode::vector},
+                                                    {"form", &PatternNode::vector}};
+constexpr std::string_view kWaves[]{"ramp_wave", "triangle_wave", "sine_wave", "scallop_wave", "cubic_wave"};
+constexpr Word<FinishNode, Color> kFinishColors[]{{"ambient", &FinishNode::ambient},
+                                                  {"emission", &FinishNode::emission}};
+constexpr Word<FinishNode, Real> kFinishNumbers[]{{"diffuse", &FinishNode::diffuse},
+                                                  {"brilliance", &FinishNode::brilliance},
+                                                  {"phong", &FinishNode::phong},
+                                                  {"phong_size", &FinishNode::phongSize},
+                                                  {"specular", &FinishNode::specular},
+                                                  {"roughness", &FinishNode::roughness},
+                                                  {"reflection_exponent"}};
+constexpr Word<InteriorNode, Real> kInteriorNumbers[]{{"ior", &InteriorNode::ior},
+                                                      {"fade_distance", &InteriorNode::fadeDistance},
+                                                      {"fade_power", &InteriorNode::fadePower},
+                                                      {"caustics"},
+                                                      {"refraction"},
+                                                      {"dispersion_samples"}};
+constexpr std::string_view kUnusedOfMedia[]{"intervals", "method", "confidence", "variance",
+                                            "ratio",     "jitter", "aa_level",   "aa_threshold"};
+
+/// The row of that word; null if there is none.
+template <class Node, class Held, std::size_t N>
+const Word<Node, Held>* rowOf(std::string_view word, const Word<Node, Held> (&rows)[N]) {
+  const auto row =
+      std::find_if(std::begin(rows), std::end(rows), [&](const auto& r) { return r.word == word; });
+  return row == std::end(rows) ? nullptr : row;
+}
+
+template <std::size_t N>
+bool isAmong(std::string_view word, const std::string_view (&words)[N]) {
+  return std::find(std::begin(words), std::end(words), word) != std::end(words);
+}
+
+/// The value goes to the field of the row, if there is one.
+template <class Node, class Held>
+void put(Node& node, const Word<Node, Held>& row, const Held& value) {
+  if (row.field) node.*row.field = value;
+}
+
 }  // namespace
 
 bool Reader::startsPattern(const Token& t) const {
-  return t.is(Token::Kind::name) &&
-         std::find(std::begin(kPatterns), std::end(kPatterns), t.text) != std::end(kPatterns);
+  return t.is(Token::Kind::name) && isAmong(t.text, kPatterns);
 }
 
 ImageNode Reader::image() {
@@ -115,12 +176,8 @@ bool Reader::pattern(PatternNode& p) {
   } else if (p.kind == "pigment_pattern") {
     p.pigment = pigment();
   } else if (p.kind == "object") {
-    expectMark("{", "after object");
-    for (int depth = 1; depth > 0;) {
-      const Token skipped = next();
-      if (skipped.is(Token::Kind::end)) fail(t, "expected \"}\" after object");
-      depth += skipped.isMark("{") ? 1 : skipped.isMark("}") ? -1 : 0;
-    }
+    if (!peek().isMark("{")) expectMark("{", "after object");
+    omitBlock();
   } else if (p.kind == "density_file") {
     if (peek().is(Token::Kind::name)) next();
     text();
@@ -158,49 +215,23 @@ bool Reader::patternModifier(PatternNode& p, Affine& at) {
     return true;
   }
   const std::string_view w = t.text;
-  if (w == "turbulence") {
+  if (const auto* of = rowOf(w, kPatternVectors)) {
     next();
-    p.turbulence = vector();
+    put(p, *of, vector());
+    if (w == "form" && p.vector == Vec3{-1, 1, 0}) p.vector = {1, 0, 0};
+  } else if (const auto* row = rowOf(w, kPatternNumbers)) {
+    next();
+    put(p, *row, number());
   } else if (w == "octaves") {
     next();
     p.octaves = std::clamp(whole(), 1, 10);
-  } else if (w == "omega") {
-    next();
-    p.omega = number();
-  } else if (w == "lambda") {
-    next();
-    p.lambda = number();
-  } else if (w == "frequency") {
-    next();
-    p.frequency = number();
-  } else if (w == "phase") {
-    next();
-    p.phase = number();
-  } else if (w == "ramp_wave" || w == "triangle_wave" || w == "sine_wave" || w == "scallop_wave" ||
-             w == "cubic_wave") {
+  } else if (isAmong(w, kWaves)) {
     next();
     p.wave = std::string(w);
   } else if (w == "poly_wave") {
     next();
     p.wave = "poly_wave";
     p.exponent = startsNumber() ? number() : 1;
-  } else if (w == "agate_turb") {
-    next();
-    p.number = number();
-  } else if (w == "brick_size") {
-    next();
-    p.vector = vector();
-  } else if (w == "mortar") {
-    next();
-    p.number = number();
-  } else if (w == "form") {
-    next();
-    p.vector = vector();
-    if (p.vector == Vec3{-1, 1, 0}) p.vector = {1, 0, 0};
-  } else if (w == "metric" || w == "offset" || w == "control0" || w == "control1" || w == "noise_generator" ||
-             w == "accuracy" || w == "interpolate") {
-    next();
-    number();
   } else if (w == "solid" || w == "no_bump_scale") {
     next();
   } else if (w == "exponent" || w == "exterior" || w == "interior") {
@@ -345,13 +376,7 @@ Ref<MapNode> Reader::map(const Token& keyword) {
 Ref<PigmentNode> Reader::pigment(std::string_view) {
   auto p = std::make_shared<PigmentNode>();
   p->place = place(peek());
-  if (!peek().isMark("{")) {  // pigment Name
-    const Token name = next();
-    const Slot slot = namedSlot(name);
-    const auto* held = slot ? slot->as<Ref<PigmentNode>>() : nullptr;
-    if (!held) fail(name, "expected a pigment, found " + describe(name));
-    return *held;
-  }
+  if (const Ref<PigmentNode> named = namedInPlace<PigmentNode>("a pigment")) return named;
   next();
   *p = *defaultPigment_;
   pigmentBody(*p);
@@ -469,13 +494,7 @@ void Reader::pigmentBody(PigmentNode& p) {
 Ref<NormalNode> Reader::normal() {
   auto n = std::make_shared<NormalNode>();
   n->place = place(peek());
-  if (!peek().isMark("{")) {
-    const Token name = next();
-    const Slot slot = namedSlot(name);
-    const auto* held = slot ? slot->as<Ref<NormalNode>>() : nullptr;
-    if (!held) fail(name, "expected a normal, found " + describe(name));
-    return *held;
-  }
+  if (const Ref<NormalNode> named = namedInPlace<NormalNode>("a normal")) return named;
   next();
   Omissions own;
   const LeftTo told(*this, own);
@@ -486,12 +505,7 @@ Ref<NormalNode> Reader::normal() {
       *n = *held;
       continue;
     }
-    if (const Value* value = t.is(Token::Kind::name) ? valueOf(t) : nullptr)
-      if (const auto* held = value->as<Ref<NormalNode>>()) {
-        *n = **held;
-        next();
-        continue;
-      }
+    if (takesNamed(*n)) continue;
     PatternNode made;
     if (pattern(made)) {
       n->pattern = made;
@@ -533,13 +547,7 @@ Ref<NormalNode> Reader::normal() {
 
 Ref<FinishNode> Reader::finish() {
   auto f = std::make_shared<FinishNode>(*defaultFinish_);
-  if (!peek().isMark("{")) {
-    const Token name = next();
-    const Slot slot = namedSlot(name);
-    const auto* held = slot ? slot->as<Ref<FinishNode>>() : nullptr;
-    if (!held) fail(name, "expected a finish, found " + describe(name));
-    return *held;
-  }
+  if (const Ref<FinishNode> named = namedInPlace<FinishNode>("a finish")) return named;
   next();
   Omissions own;
   const LeftTo told(*this, own);
@@ -550,46 +558,24 @@ Ref<FinishNode> Reader::finish() {
       *f = *held;
       continue;
     }
-    if (const Value* value = t.is(Token::Kind::name) ? valueOf(t) : nullptr)
-      if (const auto* held = value->as<Ref<FinishNode>>()) {
-        *f = **held;
-        next();
-        continue;
-      }
+    if (takesNamed(*f)) continue;
     if (!t.is(Token::Kind::name)) expected("a word of a finish or \"}\"");
     next();
     const std::string_view w = t.text;
-    if (w == "ambient") {
-      f->ambient = plainColor();
-    } else if (w == "emission") {
-      f->emission = plainColor();
-    } else if (w == "diffuse") {
-      takesName("albedo");
-      f->diffuse = number();
-      if (takesMark(",")) leaveOut(t, "light that a finish lets through from behind"), number();
-    } else if (w == "brilliance") {
-      f->brilliance = number();
-    } else if (w == "phong") {
-      takesName("albedo");
-      f->phong = number();
-    } else if (w == "phong_size") {
-      f->phongSize = number();
-    } else if (w == "specular") {
-      takesName("albedo");
-      f->specular = number();
-    } else if (w == "roughness") {
-      f->roughness = number();
+    if (const auto* color = rowOf(w, kFinishColors)) {
+      put(*f, *color, plainColor());
+    } else if (const auto* row = rowOf(w, kFinishNumbers)) {
+      if (w == "diffuse" || w == "phong" || w == "specular") takesName("albedo");
+      put(*f, *row, number());
+      if (w == "diffuse" && takesMark(","))
+        leaveOut(t, "light that a finish lets through from behind"), number();
     } else if (w == "metallic") {
       f->metallic = startsNumber() ? number() : 1;
     } else if (w == "crand") {
       number();
       leaveOut(t, "crand");
-    } else if (w == "conserve_energy" || w == "use_alpha") {
+    } else if (w == "conserve_energy" || w == "use_alpha" || w == "fresnel") {
       flag();
-    } else if (w == "fresnel") {
-      flag();
-    } else if (w == "reflection_exponent") {
-      number();
     } else if (w == "reflection") {
       f->fresnel = false;
       if (takesMark("{")) {
@@ -708,13 +694,7 @@ void Reader::textureBody(TextureNode::Layer& layer, bool& isMap) {
 
 Ref<TextureNode> Reader::texture() {
   constexpr int kMostDepth = 100;
-  if (!peek().isMark("{")) {
-    const Token name = next();
-    const Slot slot = namedSlot(name);
-    const auto* held = slot ? slot->as<Ref<TextureNode>>() : nullptr;
-    if (!held) fail(name, "expected a texture, found " + describe(name));
-    return *held;
-  }
+  if (const Ref<TextureNode> named = namedInPlace<TextureNode>("a texture")) return named;
   if (++depth_ > kMostDepth) {
     depth_ = 0;
     fail(peek(), "textures within each other more than 100 deep");
@@ -767,12 +747,7 @@ MediaNode Reader::media() {
   while (!takesMark("}")) {
     const Token t = peek();
     if (takesMark(",")) continue;
-    if (const Value* value = t.is(Token::Kind::name) ? valueOf(t) : nullptr)
-      if (const auto* held = value->as<Ref<MediaNode>>()) {
-        m = **held;
-        next();
-        continue;
-      }
+    if (takesNamed(m)) continue;
     Affine by;
     if (transform(by)) {
       m.at = by * m.at;
@@ -805,9 +780,7 @@ MediaNode Reader::media() {
     } else if (t.isName("samples")) {
       number();
       if (takesMark(",")) number();
-    } else if (t.isName("intervals") || t.isName("method") || t.isName("confidence") ||
-               t.isName("variance") || t.isName("ratio") || t.isName("jitter") || t.isName("aa_level") ||
-               t.isName("aa_threshold")) {
+    } else if (t.is(Token::Kind::name) && isAmong(t.text, kUnusedOfMedia)) {
       number();
     } else if (t.isName("collect")) {
       flag();
@@ -820,13 +793,7 @@ MediaNode Reader::media() {
 
 Ref<InteriorNode> Reader::interior() {
   auto in = std::make_shared<InteriorNode>();
-  if (!peek().isMark("{")) {
-    const Token name = next();
-    const Slot slot = namedSlot(name);
-    const auto* held = slot ? slot->as<Ref<InteriorNode>>() : nullptr;
-    if (!held) fail(name, "expected an interior, found " + describe(name));
-    return *held;
-  }
+  if (const Ref<InteriorNode> named = namedInPlace<InteriorNode>("an interior")) return named;
   next();
   Omissions own;
   const LeftTo told(*this, own);
@@ -851,16 +818,10 @@ Ref<InteriorNode> Reader::interior() {
       continue;
     }
     next();
-    if (t.isName("ior")) {
-      in->ior = number();
-    } else if (t.isName("fade_distance")) {
-      in->fadeDistance = number();
-    } else if (t.isName("fade_power")) {
-      in->fadePower = number();
+    if (const auto* row = rowOf(t.text, kInteriorNumbers); row && t.is(Token::Kind::name)) {
+      put(*in, *row, number());
     } else if (t.isName("fade_color") || t.isName("fade_colour")) {
       in->fadeColor = plainColor();
-    } else if (t.isName("caustics") || t.isName("refraction") || t.isName("dispersion_samples")) {
-      number();
     } else if (t.isName("dispersion")) {
       number();
       leaveOut(t, "dispersion");
@@ -876,13 +837,7 @@ Ref<InteriorNode> Reader::interior() {
 
 Ref<MaterialNode> Reader::material() {
   auto m = std::make_shared<MaterialNode>();
-  if (!peek().isMark("{")) {
-    const Token name = next();
-    const Slot slot = namedSlot(name);
-    const auto* held = slot ? slot->as<Ref<MaterialNode>>() : nullptr;
-    if (!held) fail(name, "expected a material, found " + describe(name));
-    return *held;
-  }
+  if (const Ref<MaterialNode> named = namedInPlace<MaterialNode>("a material")) return named;
   next();
   auto all = std::make_shared<TextureNode>();
   while (!takesMark("}")) {

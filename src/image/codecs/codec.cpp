@@ -1,8 +1,8 @@
 // The table of picture formats, and reading and writing through it: see codec.h.
 //
-// The last station of a picture. The rows' parts are in codec_plain.cpp, codec_stb.cpp, codec_exr.cpp,
-// codec_webp.cpp and metadata.cpp. Source: each format's signature, from its specification; Truevision's
-// TGA 2.0 has none, so TGA is tried last and only on a header that makes sense.
+// The last station of a picture. The rows' parts are in codec_netpbm.cpp, codec_hdr.cpp, codec_stb.cpp,
+// codec_exr.cpp, codec_webp.cpp and metadata.cpp. Source: each format's signature, from its specification;
+// Truevision's TGA 2.0 has none, so TGA is tried last and only on a header that makes sense.
 #include "image/codecs/codec.h"
 
 #include <algorithm>
@@ -50,10 +50,13 @@ bool beginsWith(std::string_view bytes, std::string_view start) {
 
 bool isPng(std::string_view b) { return beginsWith(b, "\x89PNG\r\n\x1a\n"); }
 bool isBmp(std::string_view b) { return beginsWith(b, "BM"); }
-bool isPpm(std::string_view b) {
-  return b.size() > 2 && b[0] == 'P' && std::string_view("2356").find(b[1]) != std::string_view::npos &&
+/// P and a letter of the list, and white space or a comment.
+bool isNetpbm(std::string_view b, std::string_view kinds) {
+  return b.size() > 2 && b[0] == 'P' && kinds.find(b[1]) != std::string_view::npos &&
          (b[2] == '#' || b[2] == ' ' || (b[2] >= '\t' && b[2] <= '\r'));
 }
+bool isPpm(std::string_view b) { return isNetpbm(b, "123456") || beginsWith(b, "P7\n"); }
+bool isPfm(std::string_view b) { return isNetpbm(b, "Ff"); }
 bool isJpeg(std::string_view b) { return beginsWith(b, "\xFF\xD8\xFF"); }
 bool isHdr(std::string_view b) { return beginsWith(b, "#?"); }
 bool isExr(std::string_view b) { return beginsWith(b, "\x76\x2f\x31\x01"); }
@@ -94,9 +97,8 @@ Raster decodePng(std::string_view bytes, const PictureLimits& limits) {
   return oriented(decodeByStb(bytes, limits), pngOrientation(bytes));
 }
 Metadata noMetadata(std::string_view) { return {}; }
-std::string noRemark(std::string_view) { return {}; }
 
-constexpr std::string_view kPng[] = {".png"}, kBmp[] = {".bmp"}, kPpm[] = {".ppm", ".pnm"},
+constexpr std::string_view kPng[] = {".png"}, kBmp[] = {".bmp"}, kPpm[] = {".ppm", ".pnm"}, kPfm[] = {".pfm"},
                            kJpeg[] = {".jpg", ".jpeg"}, kHdr[] = {".hdr"}, kExr[] = {".exr"},
                            kWebp[] = {".webp"}, kTga[] = {".tga"};
 /// As many as memory can address.
@@ -111,13 +113,15 @@ constexpr PictureFormat kFormats[] = {
     {"BMP", kBmp, "8 bits a channel, uncompressed; for hand-ins in the courses", false, true, INT_MAX,
      kMostStbPixels, encodeBmp, isBmp, decodeBmp, noMetadata, bmpRemark},
     {"PPM", kPpm, "8 bits a channel, uncompressed; the simplest there is", false, true, INT_MAX, kAnyNumber,
-     encodePpm, isPpm, decodePpm, commentLines, noRemark},
+     encodePpm, isPpm, decodePpm, commentLines, ppmRemark},
     {"JPEG", kJpeg, "8 bits a channel, small, with visible loss", false, false, 65535, kMostStbPixels,
      encodeJpeg, isJpeg, decodeJpeg, jpegComments, jpegRemark},
     {"HDR", kHdr, "Radiance RGBE, keeps values above 1 to one part in 256 of the brightest channel", true,
      false, INT_MAX, kMostStbPixels, encodeHdr, isHdr, decodeHdr, commentLines, hdrRemark},
     {"EXR", kExr, "32-bit floats, keeps every value; carries the render's settings", true, true, 1 << 24,
      kAnyNumber, encodeExr, isExr, decodeExr, exrMetadata, exrRemark, decodeExrLayer, exrLayerRemark},
+    {"PFM", kPfm, "32-bit floats, uncompressed; keeps every value, and programs of a few lines read it", true,
+     true, INT_MAX, kAnyNumber, encodePfm, isPfm, decodePfm, noMetadata, pfmRemark},
     {"WebP", kWebp, "8 bits a channel, with or without loss; read, not written", false, true, kMostWebpSide,
      kAnyNumber, nullptr, isWebp, decodeWebp, noMetadata, webpRemark},
     {"TGA", kTga, "8 bits a channel, run-length coded", false, true, 65535, kMostStbPixels, encodeTga, isTga,

@@ -77,8 +77,12 @@ inline void remark(std::string& all, std::string_view part) {
 /// The remark about a colour profile; "" for sRGB, which is expected.
 std::string profileRemark(std::string_view profile);
 
-/// P2, P3, P5 or P6.
+/// P1 to P7.
 Raster decodePpm(std::string_view bytes, const PictureLimits& limits);
+std::string ppmRemark(std::string_view bytes);
+std::string encodePfm(const Picture& picture, Rounding, const Metadata&);
+Raster decodePfm(std::string_view bytes, const PictureLimits& limits);
+std::string pfmRemark(std::string_view bytes);
 std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata);
 Raster decodeHdr(std::string_view bytes, const PictureLimits& limits);
 std::string hdrRemark(std::string_view bytes);

@@ -53,6 +53,7 @@ class GltfReader {
     warn("the transparency of COLOR_0 is left out", clearColors_);
     warn("triangles that use points which are not there are left out", lostTriangles_);
     warn("meshes without the texture coordinates of their pictures show the top left corner", withoutUvs_);
+    warn("tangents that do not lie along the texture coordinates are not shown: triangles", foreignTangents_);
     warn("corners at the end of a mesh that make no whole triangle are left out", leftOver_);
     warn("joints of points that their skin does not have are left out", pose_->lostJoints());
     warn("objects are left out whose transform makes them flat, or infinitely large or small", flat_);
@@ -226,8 +227,49 @@ class GltfReader {
         ++lostTriangles_;
     }
     if (mesh.triangles.empty() && !wrongCorner_.empty()) fail(wrongCorner_);
+    noteTangents(primitive, mesh);
     repairs_.check(mesh, place_);
     return mesh;
+  }
+
+  /// Normal maps lie as the texture coordinates say. Exporters compute tangents from those: only others would
+  /// change the picture.
+  void noteTangents(const tinygltf::Primitive& primitive, const MeshData& mesh) {
+    const auto found = primitive.attributes.find("TANGENT");
+    if (found == primitive.attributes.end() || !isIndex(primitive.material, gltf_.materials.size())) return;
+    const tinygltf::NormalTextureInfo& map =
+        gltf_.materials[static_cast<std::size_t>(primitive.material)].normalTexture;
+    const auto [first, second] = looks_.uvSets(primitive.material);
+    if (map.index < 0 || (first != map.texCoord && second != map.texCoord)) return;
+    const std::vector<Vec3f> points = vectors(primitive, "POSITION", 0);  // before they are bent
+    const GltfElements tangents = elements(found->second);
+    const bool fit = tangents.components() == 4 && tangents.count() == points.size();
+    constexpr std::size_t kFew = 50;  // one in so many may be at a seam
+    const std::size_t others =
+        fit ? foreignTangents(points, first == map.texCoord ? mesh.uvs : mesh.secondUvs, mesh, tangents)
+            : mesh.triangles.size();
+    if (others > mesh.triangles.size() / kFew) foreignTangents_ += others;
+  }
+
+  /// How many triangles have tangents of another direction, or handedness, than their texture coordinates.
+  static std::size_t foreignTangents(const std::vector<Vec3f>& points, const std::vector<Vec2>& uvs,
+                                     const MeshData& mesh, const GltfElements& tangents) {
+    constexpr Real kClose = 0.5;  // cosine: tangents are means over several faces
+    std::size_t count = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Vec3 ab = Vec3(points[b]) - Vec3(points[a]), ac = Vec3(points[c]) - Vec3(points[a]);
+      const Real ub = uvs[b].x - uvs[a].x, vb = uvs[b].y - uvs[a].y, uc = uvs[c].x - uvs[a].x,
+                 vc = uvs[c].y - uvs[a].y, turn = ub * vc - uc * vb;
+      const Vec3 along = (ab * vc - ac * vb) * (turn < 0 ? -1 : 1);
+      const auto isOther = [&](std::uint32_t point) {
+        const Vec3 tangent(tangents.vector(point));
+        return dot(tangent, along) < kClose * length(tangent) * length(along) ||
+               (tangents.number(point, 3) < 0) != (turn < 0);
+      };
+      const bool hasDirection = turn != 0 && along != Vec3{};
+      count += hasDirection && isOther(a) && isOther(b) && isOther(c);
+    }
+    return count;
   }
 
   std::vector<std::uint32_t> cornersOf(const tinygltf::Primitive& primitive, std::size_t points) {
@@ -309,6 +351,8 @@ class GltfReader {
   std::size_t lostTriangles_ = 0;
   std::string wrongCorner_;  ///< what is wrong with the last triangle that was lost
   std::size_t withoutUvs_ = 0;
+  std::size_t foreignTangents_ =
+      0;                          ///< triangles with a normal map, whose tangents are not those of their uv
   std::size_t otherCameras_ = 0;  ///< behind the first
   std::size_t clearColors_ = 0;   ///< meshes with colours of points that are transparent
   std::size_t leftOver_ = 0;      ///< corners that make no triangle

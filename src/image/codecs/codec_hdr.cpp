@@ -1,10 +1,8 @@
-// PPM and Radiance HDR, simple enough to be written out here. Two stations of codec.cpp's table.
+// Radiance HDR, simple enough to be written out here. One station of codec.cpp's table.
 //
-// Sources: netpbm's ppm(5) and pgm(5), of which P2, P3, P5 and P6 are read with any maximum and P6 is
-// written; Greg Ward, "Real Pixels", Graphics Gems II (1991), and the Radiance picture format, of which
-// flat rows and both run-length codes are read, of RGBE and XYZE, in all eight orientations and with their
-// exposure taken back, and flat rows are written. stb could read both, but
-// version 2.27 loops infinitely on a truncated HDR file and takes 16-bit PPM with its bytes swapped.
+// Sources: Greg Ward, "Real Pixels", Graphics Gems II (1991), and the Radiance picture format. Flat rows and
+// both run-length codes are read, of RGBE and XYZE, in all eight orientations and with their exposure taken
+// back. Flat rows are written. stb could read it, but version 2.27 loops infinitely on a truncated file.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,40 +20,6 @@
 
 namespace trace {
 namespace {
-
-/// Takes a netpbm file apart from its start.
-class NetpbmReader {
- public:
-  explicit NetpbmReader(std::string_view bytes) : rest_(bytes) {}
-
-  void skip(size_t count) { rest_.remove_prefix(std::min(count, rest_.size())); }
-
-  /// The next decimal number, behind white space and comments.
-  int number() {
-    while (!rest_.empty() && (isSpace(rest_[0]) || rest_[0] == '#'))
-      skip(rest_[0] == '#' ? std::min(rest_.find_first_of("\r\n"), rest_.size()) : 1);
-    if (rest_.empty()) failAtEnd();
-    int value = 0, digits = 0;
-    for (; !rest_.empty() && rest_[0] >= '0' && rest_[0] <= '9'; ++digits, skip(1))
-      if ((value = 10 * value + (rest_[0] - '0')) > 100'000'000)
-        throw std::runtime_error("a number is too large");
-    if (digits == 0) throw std::runtime_error("a number was expected in the header or among the pixels");
-    return value;
-  }
-
-  /// The next sample of `count` bytes, the high byte first.
-  int sample(size_t count) {
-    if (rest_.size() < count) failAtEnd();
-    int value = 0;
-    for (size_t i = 0; i < count; ++i) value = value << 8 | static_cast<unsigned char>(rest_[i]);
-    skip(count);
-    return value;
-  }
-
- private:
-  static bool isSpace(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-  std::string_view rest_;
-};
 
 using Rgbe = std::array<unsigned char, 4>;
 
@@ -240,43 +204,6 @@ HdrSize hdrSize(std::string_view line) {
 }
 
 }  // namespace
-
-std::string encodePpm(const Picture& picture, Rounding rounding, const Metadata& metadata) {
-  const std::string header =
-      "P6\n" + std::to_string(picture.width) + " " + std::to_string(picture.height) + "\n255\n";
-  std::string file = withCommentLines(header, metadata);
-  const Bytes bytes = toBytes(picture, rounding);
-  file.append(reinterpret_cast<const char*>(bytes.rgb.data()), bytes.rgb.size());
-  return file;
-}
-
-Raster decodePpm(std::string_view bytes, const PictureLimits& limits) {
-  const bool grey = bytes[1] == '2' || bytes[1] == '5', plain = bytes[1] == '2' || bytes[1] == '3';
-  NetpbmReader reader(bytes);
-  reader.skip(2);
-  const int width = reader.number(), height = reader.number(), most = reader.number();
-  if (most < 1 || most > 65535) throw std::runtime_error("a maximum of 1 to 65535 was expected");
-  const double bytesPerPixel = (plain || most > 255 ? 2 : 1) * (grey ? 1 : 3);
-  checkClaimedSize(width, height, bytes.size(), 1 / bytesPerPixel, limits);
-  if (!plain) reader.skip(1);
-  Raster raster(width, height, grey ? 1 : 3, most);
-  const auto read = [&](auto value, const auto& next) {
-    std::vector<decltype(value)> samples(raster.count());
-    for (auto& sample : samples) sample = static_cast<decltype(value)>(next());
-    raster.samples = std::move(samples);
-  };
-  if (plain)
-    read(std::uint16_t{}, [&] {
-      const int value = reader.number();
-      if (value > 65535) throw std::runtime_error("a sample above 65535");
-      return value;
-    });
-  else if (most > 255)
-    read(std::uint16_t{}, [&] { return reader.sample(2); });
-  else
-    read(std::uint8_t{}, [&] { return reader.sample(1); });
-  return raster;
-}
 
 std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata) {
   const std::string size = "-Y " + std::to_string(picture.height) + " +X " + std::to_string(picture.width);
