@@ -3,7 +3,7 @@
 # upward, sideways or through "..". CMake's include paths already keep floors apart; this shows it, and
 # catches what a relative path could smuggle past them. It also fails when another file than those that need it
 # sees the structs of all shapes, lights, materials or textures, which is slow to compile, and when code asks which
-# integrator is chosen.
+# integrator is chosen, or for the operating system.
 # Usage: check_floors.sh [checkout]
 set -euo pipefail
 
@@ -43,6 +43,13 @@ if [[ "$seers" != 'src/geometry/shape_table.cpp src/render/world/world_queries.c
 fi
 if grep -rnE '[!=]= *IntegratorKind::' src; then
   echo 'ask for a trait (scene/integrators.h), not for one integrator'
+  exit 1
+fi
+system='_WIN32|_WIN64|__MINGW|__linux__|__unix__|__APPLE__|__GLIBC__'
+headers='unistd|fcntl|signal|csignal|poll|dirent|pthread|sched|malloc|windows|io|sys/[a-z]+'
+if grep -rnE "^ *# *(if|elif|ifdef|ifndef).*($system)|^#include <($headers)(\.h)?>" src --include='*.h' --include='*.cpp' |
+  grep -v '^src/base/os/'; then
+  echo 'only src/base/os asks for the operating system, or includes its headers'
   exit 1
 fi
 while read -r folder; do

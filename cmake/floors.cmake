@@ -1,3 +1,16 @@
+# One folder of src/base/os is compiled.
+if(WIN32)
+  set(otherSystem posix)
+else()
+  set(otherSystem windows)
+endif()
+# And one of the files that end with what the studio runs on.
+if(EMSCRIPTEN)
+  set(otherHost desktop)
+else()
+  set(otherHost web)
+endif()
+
 # floor(NAME [LIGHT] [ROOMS] [USES lower floors...] [LIBRARIES public...] [PRIVATE private...] [PRECOMPILE headers...]
 #       [PRECOMPILE_AS lower floor] [HOT files...] [COLD files...])
 #
@@ -11,13 +24,15 @@ function(floor NAME)
   cmake_parse_arguments(ARG "LIGHT;ROOMS" "PRECOMPILE_AS" "USES;LIBRARIES;PRIVATE;PRECOMPILE;HOT;COLD" ${ARGN})
   set(root ${PROJECT_BINARY_DIR}/floors/${NAME})
   file(MAKE_DIRECTORY ${root})
-  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/${NAME} ${root}/${NAME} SYMBOLIC)
+  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/src/${NAME} ${root}/${NAME} RESULT unable SYMBOLIC)
+  if(unable)  # Windows lets only some users make links
+    set(root ${PROJECT_SOURCE_DIR}/src)
+  endif()
 
   set(target trace_${NAME})
   list(TRANSFORM ARG_USES PREPEND trace_)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${NAME}/*.cpp)
-  list(FILTER sources EXCLUDE REGEX "_avx[0-9]+\\.cpp$|/main\\.cpp$")
-  list(FILTER sources EXCLUDE REGEX "_${otherPlatforms}\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "_avx[0-9]+\\.cpp$|/main\\.cpp$|/os/${otherSystem}/|_${otherHost}\\.cpp$")
   list(TRANSFORM ARG_HOT PREPEND ${PROJECT_SOURCE_DIR}/src/${NAME}/)
   list(REMOVE_ITEM sources ${ARG_HOT})
   add_library(${target} STATIC ${sources})

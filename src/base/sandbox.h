@@ -35,6 +35,7 @@ struct SandboxResult {
     couldNotStart,  ///< nothing was run
   } end = End::couldNotStart;
   int code = 0;
+  std::string signal{};   ///< the name of the signal that ended it, or a program of its shell; else ""
   double cpuSeconds = 0;  ///< all its processes that ended before it or with it
   std::string said{};     ///< the end of what it printed, or why it was not run
   enum class Output { none, taken, tooLarge, noFile } output = Output::none;

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 
+#include "base/os/process.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/flags.h"
@@ -182,16 +183,10 @@ class Parser {
   std::vector<std::string> names_;
 };
 
-/// The variable's value, or "" when it is unset.
-std::string variable(const char* name) {
-  const char* value = std::getenv(name);
-  return value ? value : "";
-}
-
 void readEnvironment(Arguments& arguments) {
-  if (const std::string level = variable("RAY_LOG"); !level.empty())
+  if (const std::string level = os::variable("RAY_LOG"); !level.empty())
     arguments.logLevel = logLevel("RAY_LOG", level);
-  if (const std::string threads = variable("RAY_THREADS"); !threads.empty()) {
+  if (const std::string threads = os::variable("RAY_THREADS"); !threads.empty()) {
     Settings scratch;
     try {
       findOption("threads").assign(scratch, threads);

@@ -112,7 +112,7 @@ int renderFrames(const Arguments& given, const std::string& pattern, const Conso
                 "expected a name with #### for the number of the frame, found \"" + pattern + "\"",
                 "-o frame.####.png");
   if (!keepsWords(pattern))
-    console.line(LogLevel::info, "note: " + std::filesystem::path(pattern).extension().string() +
+    console.line(LogLevel::info, "note: " + std::filesystem::path(pattern).extension().generic_string() +
                                      " files cannot say how they were made, so frames that are there are "
                                      "rendered again; those of .png are skipped");
   Signals signals;

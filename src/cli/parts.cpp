@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kListBegin = "Trace parts 1", kParts = "parts ", kWord = "word ";
 
-std::string listName(const std::string& folder) { return (fs::path(folder) / "parts.list").string(); }
+std::string listName(const std::string& folder) { return (fs::path(folder) / "parts.list").generic_string(); }
 
 /// Whether the file is the part with this identity, and whole.
 bool isThisPart(const std::string& path, const std::string& identity) {
@@ -119,7 +119,7 @@ int renderPart(const Arguments& arguments, const std::string& named, const Conso
   checkDivides(session, share.count);
   const std::string what = "part " + std::to_string(arguments.part) + " of " + std::to_string(share.count);
   const std::string output = !named.empty() ? named
-                                            : fs::path(arguments.files[0]).stem().string() + "." +
+                                            : fs::path(arguments.files[0]).stem().generic_string() + "." +
                                                   std::to_string(arguments.part) + "-of-" +
                                                   std::to_string(share.count) + ".part";
   checkIsNoInput(output, session.scene().inputs);

@@ -8,8 +8,8 @@
 #include "app/session/render_warnings.h"
 #include "base/budget.h"
 #include "base/files/file.h"
+#include "base/os/memory.h"
 #include "cli/commands/commands.h"
-#include "cli/terminal/memory_limit.h"
 #include "cli/text/statistics_text.h"
 #include "image/codecs/codec.h"
 #include "image/srgb.h"
@@ -64,7 +64,8 @@ std::string pixelsText(const Size& size) {
 std::string pictureFor(const Scene& scene, const std::string& named) {
   if (!named.empty()) return named;
   if (scene.file == kStandardInput) return "stdin.png";
-  return !scene.picture.empty() ? scene.picture : std::filesystem::path(scene.file).stem().string() + ".png";
+  return !scene.picture.empty() ? scene.picture
+                                : std::filesystem::path(scene.file).stem().generic_string() + ".png";
 }
 
 void checkPlaces(const Session& session, const std::string& output) {
@@ -113,7 +114,7 @@ RenderResult renderPictureWatched(Session& session, const Arguments& arguments, 
   }
   const bool keeps = result.end != End::finished || arguments.resume == Resume::keep;
   if (keeps && every > 0 && session.job().done > 0) {
-    liftMemoryLimit();
+    os::liftMemoryLimit();
     saveCheckpoint(checkpoint, session.film(), progress, console);
   }
   return result;
@@ -215,7 +216,7 @@ SavedPicture saveSomewhere(Session& session, PictureFiles& files, LastSteps fini
   namespace fs = std::filesystem;
   std::error_code ignored;
   const fs::path folder = makeOwnFolder();
-  PictureFiles others = session.filesFor((folder / fs::path(files.path()).filename()).string());
+  PictureFiles others = session.filesFor((folder / fs::path(files.path()).filename()).generic_string());
   try {
     return {session.save(others, finish), true, inPlace, finish};
   } catch (const Error& error) {
@@ -246,7 +247,7 @@ std::string longSteps(const Settings& settings) {
 
 SavedPicture save(Session& session, RenderResult& result, const Arguments& arguments, Signals& signals,
                   PictureFiles& files, Progress& progress, const Console& console) {
-  liftMemoryLimit();  // what is done is kept
+  os::liftMemoryLimit();  // what is done is kept
   signals.finishingBegins(result.end == End::cancelled);
   const bool finished = result.end == End::finished;
   std::string doing;
@@ -308,7 +309,7 @@ bool reportStatistics(const Arguments& arguments, Session& session, const Render
                       const std::string& written, double seconds, const Console& console) {
   if (arguments.stats == StatsStyle::none) return true;
   const BudgetScope unlimited(nullptr);
-  const Run run{session, result, written, session.job().fraction(), seconds, peakMemory()};
+  const Run run{session, result, written, session.job().fraction(), seconds, os::peakMemory()};
   if (arguments.stats == StatsStyle::table) {
     console.lines(LogLevel::error, statisticsTable(run));
     return true;

@@ -137,7 +137,7 @@ std::string sizeText(std::size_t bytes) {
 }
 
 std::string lowerSuffix(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string();
+  std::string suffix = path.extension().generic_string();
   for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return suffix;
 }

@@ -72,13 +72,13 @@ class PlacesBeside {
   NamedBytes place(const Pixels& pixels) {
     const std::string& bytes = pixels.inside->bytes;
     const PictureFormat& format = pictureFormatOf(bytes, pixels.file);
-    const std::string start = plain(fs::path(file_).stem().string()) + "-" + nameOf(pixels, format);
+    const std::string start = plain(fs::path(file_).stem().generic_string()) + "-" + nameOf(pixels, format);
     NamedBytes picture{.file = {}, .bytes = bytes};
     for (int& number = numbers_[start];;) {
       ++number;
       const std::string name =
           start + (number == 1 ? "" : "-" + std::to_string(number)) + std::string(format.suffixes.front());
-      const std::string path = (fs::path(file_).parent_path() / name).string();
+      const std::string path = (fs::path(file_).parent_path() / name).generic_string();
       if (!taken_.contains(path) && isFree(path, name, bytes)) {
         picture.file = path;
         taken_.insert(path);
@@ -133,14 +133,15 @@ SeenFrom seenFrom(const Scene& scene, const std::string& file, Messages& message
   const auto placed = [&](const std::string& name) {
     if (same || name.empty() || fs::path(name).is_absolute()) return name;
     const fs::path path = fs::absolute(pictureFile(scene.file, name), error).lexically_normal();
-    return fs::exists(path, error) ? pictureName(name).of(path.lexically_relative(target).string()) : name;
+    return fs::exists(path, error) ? pictureName(name).of(path.lexically_relative(target).generic_string())
+                                   : name;
   };
   const auto see = [&](Pixels& pixels) {
     if (pixels.inside) {
       const auto [known, fresh] = written.try_emplace(pixels.inside.get());
       if (fresh && places.any()) {
         seen.pictures.push_back(places.place(pixels));
-        known->second = fs::path(seen.pictures.back().file).filename().string();
+        known->second = fs::path(seen.pictures.back().file).filename().generic_string();
       }
       left += fresh && known->second.empty();
       if (known->second.empty()) return;
@@ -167,7 +168,7 @@ SeenFrom seenFrom(const Scene& scene, const std::string& file, Messages& message
 std::vector<NamedBytes> picturesNamed(const std::set<std::string>& names, const SeenFrom& seen) {
   std::vector<NamedBytes> named;
   for (const NamedBytes& picture : seen.pictures)
-    if (names.contains(fs::path(picture.file).filename().string())) named.push_back(picture);
+    if (names.contains(fs::path(picture.file).filename().generic_string())) named.push_back(picture);
   return named;
 }
 

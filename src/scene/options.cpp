@@ -1383,8 +1383,8 @@ bool isConvention(const Option& option) { return option.group == "Conventions" &
 bool sameValue(const Option& option, const Settings& a, const Settings& b) {
   const std::string x = option.get(a), y = option.get(b);
   return x == y || (option.kind == Option::Kind::file && x != kNone && y != kNone &&
-                    sameFile(std::filesystem::absolute(x).lexically_normal(),
-                             std::filesystem::absolute(y).lexically_normal()));
+                    sameFile(std::filesystem::absolute(x).lexically_normal().generic_string(),
+                             std::filesystem::absolute(y).lexically_normal().generic_string()));
 }
 
 std::vector<Choice> changedOptions(const Settings& settings) {

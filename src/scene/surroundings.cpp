@@ -53,7 +53,7 @@ class Reader {
     std::error_code ignored;
     const bool folder = fs::is_directory(path, ignored);
     if (folder || (kind != EnvironmentKind::latLong && kind != EnvironmentKind::angular)) {
-      const std::string in = folder ? path : fs::path(path).parent_path().string();
+      const std::string in = folder ? path : fs::path(path).parent_path().generic_string();
       std::array<std::string, 6> faces = facesIn(in.empty() ? "." : in, folder ? "" : path);
       const bool all = std::none_of(faces.begin(), faces.end(), [](const auto& f) { return f.empty(); });
       if (folder && !all) refuse(path, faces);
@@ -78,13 +78,13 @@ class Reader {
     std::vector<std::string> names;
     std::error_code error;
     for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error))
-      names.push_back(i->path().filename().string());
+      names.push_back(i->path().filename().generic_string());
     std::sort(names.begin(), names.end());
     for (const std::string& name : names) {
       const FaceName is = faceByName(name);
       if (is.face < 0 || !isPicture(name) || (!like.empty() && is.rest != one.rest)) continue;
       std::string& file = faces[static_cast<std::size_t>(is.face)];
-      if (file.empty()) file = (fs::path(folder) / name).string();
+      if (file.empty()) file = (fs::path(folder) / name).generic_string();
     }
     return faces;
   }

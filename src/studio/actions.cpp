@@ -177,7 +177,7 @@ void recentMenu(Studio& studio) {
   if (!ImGui::BeginMenu("Open recent", !recent.empty())) return;
   for (const std::string& file : recent) {
     if (ImGui::MenuItem(file.c_str())) studio.leave([&studio, file] { studio.workspace.open(file); });
-    landmark("recent " + std::filesystem::path(file).filename().string());
+    landmark("recent " + std::filesystem::path(file).filename().generic_string());
   }
   ImGui::EndMenu();
 }
@@ -294,7 +294,7 @@ void drawMenu(Studio& studio) {
   }
   const std::string& file = studio.workspace.document.file();
   if (!file.empty()) {
-    const std::string name = std::filesystem::path(file).filename().string();
+    const std::string name = std::filesystem::path(file).filename().generic_string();
     const std::string text = name + (studio.workspace.document.edited() ? " (edited)" : "");
     const float width = ImGui::CalcTextSize(text.c_str()).x;
     ImGui::SameLine(ImGui::GetWindowWidth() - width - characters(2));

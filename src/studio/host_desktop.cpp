@@ -50,7 +50,7 @@ bool isPage() { return false; }
 
 std::string examples() {
   std::error_code unknown;
-  return examplesFolder(std::filesystem::read_symlink("/proc/self/exe", unknown).string());
+  return examplesFolder(std::filesystem::read_symlink("/proc/self/exe", unknown).generic_string());
 }
 
 }  // namespace trace::studio::host

@@ -10,7 +10,7 @@
 #include "app/session/version.h"
 #include "base/error.h"
 #include "base/files/read_scope.h"
-#include "base/files/streams.h"
+#include "base/os/process.h"
 #include "base/printable.h"
 #include "image/codecs/codec.h"
 #include "studio/actions.h"
@@ -175,7 +175,7 @@ class Program {
   void nameWindow() {
     const std::string& file = studio_.workspace.document.file();
     const std::string now =
-        file.empty() ? "Trace" : std::filesystem::path(file).filename().string() + " - Trace";
+        file.empty() ? "Trace" : std::filesystem::path(file).filename().generic_string() + " - Trace";
     if (now == title_) return;
     window_.setTitle(title_ = now);
     remember(studio_);  // what was opened, should the window not come to its end
@@ -201,9 +201,9 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   using namespace trace;
-  guardStreams();
+  os::guardStreams();
   try {
-    const studio::Arguments arguments = studio::parse({argv + 1, argv + argc});
+    const studio::Arguments arguments = studio::parse(os::arguments(argc, argv));
     if (arguments.help) {
       std::fputs(studio::helpText().c_str(), stdout);
       return 0;

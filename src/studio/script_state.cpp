@@ -45,8 +45,8 @@ std::string state(const Studio& studio) {
     for (const Option& option : options())
       text << "chosen " << option.name << " " << option.get(workspace.document.settings()) << "\n";
   if (workspace.document.isOpen())
-    text << "file " << std::filesystem::path(workspace.document.file()).filename().string() << "\nedited "
-         << (workspace.document.edited() ? "yes" : "no") << "\n";
+    text << "file " << std::filesystem::path(workspace.document.file()).filename().generic_string()
+         << "\nedited " << (workspace.document.edited() ? "yes" : "no") << "\n";
   text << "undo " << workspace.undoName() << "\n";
   for (const auto& [name, at] : landmarks()) {
     text << "at " << std::lround((at[0] + at[2]) / 2) << " " << std::lround((at[1] + at[3]) / 2) << " "

@@ -106,11 +106,11 @@ void drawStart(Studio& studio, ImVec2 area) {
   for (const std::string& file : recent) {
     ImGui::PushStyleColor(ImGuiCol_Button, ImVec4(0, 0, 0, 0));
     const std::filesystem::path path(file);
-    const std::string label = path.filename().string() + "##" + file;
+    const std::string label = path.filename().generic_string() + "##" + file;
     if (ImGui::SmallButton(label.c_str())) studio.workspace.open(file);
     ImGui::PopStyleColor();
     ImGui::SameLine();
-    ImGui::TextDisabled("%s", path.parent_path().string().c_str());
+    ImGui::TextDisabled("%s", path.parent_path().generic_string().c_str());
   }
   if (!page.scenes.empty()) {
     section("Scenes");

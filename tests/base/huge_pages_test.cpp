@@ -12,12 +12,14 @@
 namespace trace {
 namespace {
 
-using Pages = HugePages<std::uint64_t>;
+constexpr std::size_t kLeast = 2 * os::kLargePage;
 
-std::size_t placeInPage(const void* p) { return reinterpret_cast<std::uintptr_t>(p) % Pages::kPage; }
+[[maybe_unused]] std::size_t placeInPage(const void* p) {
+  return reinterpret_cast<std::uintptr_t>(p) % os::kLargePage;
+}
 
 TEST(HugePages, LargeArraysAreWholePages) {
-  HugeVector<std::uint64_t> large(Pages::kLeast / 8), odd(Pages::kLeast / 8 + 1);
+  HugeVector<std::uint64_t> large(kLeast / 8), odd(kLeast / 8 + 1);
 #if defined(__linux__)
   EXPECT_EQ(placeInPage(large.data()), 0u);
   EXPECT_EQ(placeInPage(odd.data()), 0u);
@@ -29,7 +31,7 @@ TEST(HugePages, LargeArraysAreWholePages) {
 
 TEST(HugePages, GrowthAndCopiesKeepWhatIsThere) {
   HugeVector<std::uint64_t> grown;
-  for (std::uint64_t i = 0; i < 3 * Pages::kLeast / 8; ++i) grown.push_back(i);
+  for (std::uint64_t i = 0; i < 3 * kLeast / 8; ++i) grown.push_back(i);
   const HugeVector<std::uint64_t> copy = grown;
   grown.clear(), grown.shrink_to_fit();
   std::uint64_t expected = 0;
@@ -53,11 +55,11 @@ TEST(HugePages, MemoryIsGivenBack) {
     held.reserve(kBytes);
     const std::size_t with = mappedBytes();
     EXPECT_GE(with, before + kBytes);
-    EXPECT_LT(with, before + kBytes + Pages::kPage)
+    EXPECT_LT(with, before + kBytes + os::kLargePage)
         << "what lies before and behind whole pages is given back";
   }
   for (int i = 0; i < 20; ++i) HugeVector<char>().reserve(kBytes + static_cast<std::size_t>(i));
-  EXPECT_LT(mappedBytes(), before + Pages::kPage);
+  EXPECT_LT(mappedBytes(), before + os::kLargePage);
 }
 #endif
 

@@ -54,6 +54,7 @@ TEST_F(Kind, RayAloneWithoutADisplayRendersAFirstScene) {
   const auto first = run({}, noDisplay);
   EXPECT_EQ(first.code, 0) << first.err;
   EXPECT_TRUE(contains(first.err, "wrote scene.png (640x480)")) << first.err;
+  EXPECT_TRUE(contains(first.err, "glass.png\n")) << "the lines of the help are lines";
   EXPECT_GT(meanLevel(readPicture(path("scene.png"))), 60);
   EXPECT_EQ(readFile(path("scene.ray")).substr(0, 7), "Trace 1");
   const auto again = run({}, noDisplay);

@@ -2,7 +2,6 @@
 // pass in silence. A row of the table is a file; `expected` begins with "warning" or "error", and a part of
 // the message follows.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -15,6 +14,7 @@
 #include <vector>
 
 #include "base/files/file.h"
+#include "base/os/memory.h"
 #include "base/sanitized.h"
 #include "formats/format.h"
 #include "shading/textures/image_map.h"
@@ -822,9 +822,8 @@ TEST(BrokenFiles, InventorFieldsMayStandWithoutAValue) {
 }
 
 [[noreturn]] void readWithLittleMemory(const std::string& file) {
-  constexpr rlim_t kLittle = 100'000'000;
-  const rlimit limit{kLittle, kLittle};
-  setrlimit(RLIMIT_AS, &limit);
+  constexpr std::uint64_t kLittle = 100'000'000;
+  os::limitMemory(kLittle, 1);
   Messages messages;
   try {
     readScene(file, messages);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "support/random.h"
 
@@ -15,7 +16,7 @@ TEST(Hypothesis, IncompleteBetaHasItsClosedForms) {
     EXPECT_NEAR(incompleteBeta(1, 1, x), x, 1e-14);
     EXPECT_NEAR(incompleteBeta(3, 1, x), x * x * x, 1e-14);
     EXPECT_NEAR(incompleteBeta(1, 4, x), 1 - std::pow(1 - x, 4), 1e-13);
-    EXPECT_NEAR(incompleteBeta(0.5, 0.5, x), 2 / M_PI * std::asin(std::sqrt(x)), 1e-13);
+    EXPECT_NEAR(incompleteBeta(0.5, 0.5, x), 2 / std::numbers::pi * std::asin(std::sqrt(x)), 1e-13);
   }
 }
 

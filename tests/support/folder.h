@@ -2,10 +2,11 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <string>
+
+#include "base/os/process.h"
 
 namespace trace::test {
 
@@ -15,7 +16,7 @@ class Folder {
   Folder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
     path_ = testing::TempDir() + "trace_" + test->test_suite_name() + "_" + test->name() + "_" +
-            std::to_string(getpid());
+            std::to_string(os::processNumber());
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

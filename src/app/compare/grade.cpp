@@ -31,7 +31,7 @@ void checkPage(const GradeTask& task, const InputFiles& inputs) {
 InputFiles filesOf(const GradeTask& task, const Grades& grades) {
   InputFiles files;
   const auto note = [&](const std::string& folder, const std::string& name) {
-    if (!name.empty()) files.noteRead((fs::path(folder) / name).string(), {});
+    if (!name.empty()) files.noteRead((fs::path(folder) / name).generic_string(), {});
   };
   for (const GradedPair& pair : grades.pairs) {
     note(task.reference, pair.name);
@@ -50,7 +50,8 @@ std::vector<std::string> hiddenFiles(const GradeTask& task, const FolderFiles& r
   const fs::path between = folder.lexically_relative(reference);
   if (between.empty() || *between.begin() == "..") return {task.reference};
   std::vector<std::string> hidden;
-  for (const fs::path& picture : references.files) hidden.push_back((task.reference / picture).string());
+  for (const fs::path& picture : references.files)
+    hidden.push_back((task.reference / picture).generic_string());
   return hidden;
 }
 
@@ -128,8 +129,8 @@ std::string problemOf(const Error& error) {
 
 void compareInto(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
   if (pair.file.empty() || pair.verdict == Verdict::unreadable) return;
-  const std::string test = (fs::path(task.folder) / pair.file).string();
-  const std::string reference = (fs::path(task.reference) / pair.name).string();
+  const std::string test = (fs::path(task.folder) / pair.file).generic_string();
+  const std::string reference = (fs::path(task.reference) / pair.name).generic_string();
   const PictureDifference d =
       difference(loadPicture(reference),
                  task.renderScenes ? renderedScene(test, task, inputs) : loadPicture(test), task.difference);
@@ -269,7 +270,7 @@ std::string sceneOf(const GradeTask& task, const std::string& reference) {
   std::string found;
   for (const fs::path& file : filesBelow(task.scenes, sceneKind).files)
     if (const std::string stem = lowerCase(stemOf(file)); stem == wanted && found.empty())
-      found = (task.scenes / file).string();
+      found = (task.scenes / file).generic_string();
   return found;
 }
 

@@ -77,11 +77,11 @@ std::string lowerCase(std::string text) {
 }
 
 FileKind pictureKind(const fs::path& file) {
-  return pictureFormatNamed(file.filename().string()) ? FileKind::wanted : FileKind::unwanted;
+  return pictureFormatNamed(file.filename().generic_string()) ? FileKind::wanted : FileKind::unwanted;
 }
 
 bool hasSceneSuffix(const fs::path& file) {
-  const std::string suffix = lowerCase(file.extension().string());
+  const std::string suffix = lowerCase(file.extension().generic_string());
   for (const SceneFormat& format : sceneFormats())
     for (std::string_view known : format.suffixes)
       if (known == suffix) return true;
@@ -93,8 +93,8 @@ FileKind sceneKind(const fs::path& file) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return FileKind::perhaps;
   try {
-    const std::string bytes = readFile(file.string());
-    const TextFront front(file.string(), bytes);
+    const std::string bytes = readFile(file.generic_string());
+    const TextFront front(file.generic_string(), bytes);
     for (const SceneFormat& format : sceneFormats())
       if (format.recognises(front.text())) return FileKind::wanted;
   } catch (const Error&) {  // whoever reads it as a scene is told why

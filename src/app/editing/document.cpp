@@ -22,7 +22,7 @@ std::filesystem::file_time_type timeOf(const std::string& file) {
 }
 
 std::string briefPlace(const Place& place) {
-  std::string text = std::filesystem::path(place.file).filename().string();
+  std::string text = std::filesystem::path(place.file).filename().generic_string();
   if (place.line > 0) text += ":" + std::to_string(place.line);
   return text;
 }
@@ -57,7 +57,7 @@ void keepAside(const std::string& file, const std::string& says, Messages& messa
   }
   if (!there) writeFile(aside, says);
   messages.warn(Place{.file = file},
-                "the old file is kept as " + std::filesystem::path(aside).filename().string());
+                "the old file is kept as " + std::filesystem::path(aside).filename().generic_string());
 }
 
 /// Is it one text, though perhaps read at two moments?

@@ -24,7 +24,7 @@ std::vector<FolderEntry> listFolder(const std::string& path, const std::vector<s
   std::vector<FolderEntry> entries;
   for (fs::directory_iterator i(path, error), end; !error && i != end; i.increment(error)) {
     std::error_code ignored;
-    const std::string name = i->path().filename().string();
+    const std::string name = i->path().filename().generic_string();
     if (name.starts_with(".")) continue;
     const bool folder = i->is_directory(ignored);
     const auto fits = [&](const std::string& suffix) { return lower(name).ends_with(suffix); };
@@ -45,7 +45,7 @@ std::string nearestFolder(const std::string& path) {
   std::error_code error;
   fs::path folder = path.empty() ? fs::current_path(error) : fs::absolute(path, error);
   while (!fs::is_directory(folder, error) && folder.has_relative_path()) folder = folder.parent_path();
-  return folder.lexically_normal().string();
+  return folder.lexically_normal().generic_string();
 }
 
 }  // namespace trace

@@ -66,7 +66,7 @@ std::string configFolder(const char* (*variable)(const char* name)) {
   folder /= "trace";
   std::error_code error;
   fs::create_directories(folder, error);
-  return fs::is_directory(folder, error) ? folder.string() : "";
+  return fs::is_directory(folder, error) ? folder.generic_string() : "";
 }
 
 }  // namespace trace

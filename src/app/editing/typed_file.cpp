@@ -30,7 +30,7 @@ std::string shownFile(const std::string& value, const std::string& scene) {
   std::error_code error;
   const fs::path folder = fs::absolute(scene, error).parent_path().lexically_normal();
   const fs::path below = fs::absolute(value, error).lexically_normal().lexically_relative(folder);
-  return error || below.empty() || *below.begin() == ".." ? value : below.string();
+  return error || below.empty() || *below.begin() == ".." ? value : below.generic_string();
 }
 
 }  // namespace trace

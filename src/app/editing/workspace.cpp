@@ -11,6 +11,7 @@
 #include "app/editing/texture_edits.h"
 #include "app/session/output.h"
 #include "app/session/render_warnings.h"
+#include "base/files/file.h"
 #include "base/text.h"
 #include "formats/ray/syntax/names.h"
 #include "image/codecs/codec.h"
@@ -27,7 +28,7 @@ constexpr std::chrono::milliseconds kLookInterval(500);  // for changes on disk
 std::string absolute(const std::string& file) {
   std::error_code error;
   const fs::path path = fs::absolute(file, error);
-  return error ? file : path.lexically_normal().string();
+  return error ? file : path.lexically_normal().generic_string();
 }
 
 /// The earliest time if there is no such file.
@@ -39,7 +40,7 @@ fs::file_time_type writtenAt(const std::string& file) {
 
 /// As a person would say it: from the current folder, if the file lies in it.
 std::string shown(const std::string& file) {
-  const std::string near = fs::path(absolute(file)).lexically_relative(absolute(".")).string();
+  const std::string near = fs::path(absolute(file)).lexically_relative(absolute(".")).generic_string();
   return near.empty() || near.starts_with("..") ? absolute(file) : near;
 }
 
@@ -111,7 +112,7 @@ std::string Workspace::newSceneFile() const {
   const fs::path folder = document.isOpen() ? fs::path(document.file()).parent_path() : fs::current_path();
   fs::path file = folder / "scene.ray";
   for (int i = 2; fs::exists(file); ++i) file = folder / ("scene-" + std::to_string(i) + ".ray");
-  return file.string();
+  return file.generic_string();
 }
 
 void Workspace::openFrom(const std::string& path, const std::function<void()>& first) {
@@ -462,12 +463,13 @@ void Workspace::noteEnd() {
 }
 
 std::string Workspace::defaultPictureFile() const {
-  return document.isOpen() ? fs::path(document.file()).replace_extension(".png").string() : "picture.png";
+  return document.isOpen() ? fs::path(document.file()).replace_extension(".png").generic_string()
+                           : "picture.png";
 }
 
 std::string Workspace::defaultSceneFile() const {
   if (!document.isOpen() || document.savesOverItsFile()) return document.file();
-  const std::string stem = fs::path(document.file()).replace_extension().string();
+  const std::string stem = fs::path(document.file()).replace_extension().generic_string();
   std::string file = stem + ".ray";
   for (int i = 1; fs::exists(file); ++i) file = stem + "-trace" + (i > 1 ? std::to_string(i) : "") + ".ray";
   return file;

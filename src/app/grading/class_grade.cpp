@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -18,6 +17,7 @@
 #include "base/files/file.h"
 #include "base/files/read_scope.h"
 #include "base/hash.h"
+#include "base/os/process.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "image/codecs/codec.h"
@@ -60,7 +60,7 @@ std::vector<std::string> partsFromEnd(const std::string& path) {
   std::vector<std::string> parts;
   fs::path whole(lowerCase(path));
   whole.replace_extension();
-  for (const fs::path& part : whole) parts.push_back(part.string());
+  for (const fs::path& part : whole) parts.push_back(part.generic_string());
   std::reverse(parts.begin(), parts.end());
   return parts;
 }
@@ -95,10 +95,10 @@ std::vector<Submission> submissionsIn(const GradeTask& task) {
   std::vector<Submission> all;
   for (fs::directory_iterator i(task.folder, error), end; !error && i != end; i.increment(error)) {
     std::error_code unknown;
-    const std::string name = i->path().filename().string();
+    const std::string name = i->path().filename().generic_string();
     if (name[0] == '.' || name == "__MACOSX" || !i->is_directory(unknown)) continue;
     if (fs::equivalent(i->path(), task.reference, unknown)) continue;
-    all.push_back({name, i->path().string(), {}, 0});
+    all.push_back({name, i->path().generic_string(), {}, 0});
   }
   if (error) throw Error(Fault::io, "cannot read the folder \"" + task.folder + "\": " + error.message());
   if (all.empty())
@@ -116,7 +116,7 @@ std::uint64_t hashOfFolder(const std::string& folder) {
   for (const fs::path& file : filesBelow(folder, anyKind).files) {
     hash.add(file.generic_string());
     try {
-      hash.add(readFile((folder / file).string()));
+      hash.add(readFile((folder / file).generic_string()));
     } catch (const Error&) {
       lookAtBudget();  // a file that cannot be read is none for a scene either
     }
@@ -179,7 +179,7 @@ class ClassGrader {
         throw Error(Fault::usage, "two reference pictures have one name: \"" + known->second + "\" and \"" +
                                       scene.reference + "\"");
       Reference reference;
-      reference.path = (task_.grade.reference / file).string();
+      reference.path = (task_.grade.reference / file).generic_string();
       checkOutputs(reference.path);
       try {
         Hash hash;
@@ -286,7 +286,7 @@ class ClassGrader {
   }
 
   void gradePair(const Submission& student, const Reference& reference, GradedPair& pair) {
-    const std::string file = (fs::path(student.folder) / pair.file).string();
+    const std::string file = (fs::path(student.folder) / pair.file).generic_string();
     const auto unreadable = [&](std::string why) {
       pair.verdict = Verdict::unreadable;
       pair.problem = std::move(why);
@@ -343,7 +343,7 @@ class ClassGrader {
     double cpu = -1;
     InputFiles inputs;
     judgeOrNote(pair, [&] {
-      const std::string suffix = fs::path(reference.path).extension().string();
+      const std::string suffix = fs::path(reference.path).extension().generic_string();
       const PictureDifference d =
           difference(*reference.picture, programPicture(task_.run, student.folder, scene, suffix, cpu),
                      task_.grade.difference);
@@ -370,9 +370,9 @@ class ClassGrader {
     }
     judgeOrNote(ours, [&] {
       InputFiles inputs;
-      const std::clock_t begin = std::clock();
+      const double begin = os::cpuSeconds();
       renderedScene(scene, task_.grade, inputs);
-      ours.ourCpu = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      ours.ourCpu = os::cpuSeconds() - begin;
     });
     const std::lock_guard lock(mutex_);
     results_.add(hash.value(), ours);
@@ -448,7 +448,7 @@ std::vector<std::string> assignSubmissions(const std::vector<std::string>& refer
     const auto depth = [](const std::string& path) { return std::count(path.begin(), path.end(), '/'); };
     if (depth(file) != depth(other)) return depth(file) < depth(other);
     const auto suffix = [](const std::string& path) {
-      return lowerCase(fs::path(path).extension().string());
+      return lowerCase(fs::path(path).extension().generic_string());
     };
     const bool same = suffix(file) == suffix(references[i]),
                otherSame = suffix(other) == suffix(references[i]);

@@ -1,8 +1,5 @@
 #include "app/grading/student_program.h"
 
-#include <csignal>
-#include <cstring>
-
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/printable.h"
@@ -22,19 +19,14 @@ std::string lastLine(std::string text) {
 
 std::string megabytes(std::uint64_t bytes) { return std::to_string(bytes >> 20) + " MB"; }
 
-/// The exit code of a shell whose program was ended by a signal is larger by so much.
-constexpr int kSignals = 128;
-
 /// How the program ended, in words that follow on its name.
 std::string endText(const SandboxResult& result, const ProgramRun& run) {
   switch (result.end) {
     case SandboxResult::End::timeLimit:
       return "its program takes longer than the " + toText(run.limits.seconds) + " s that it may";
-    case SandboxResult::End::killed:
-      return "its program was ended by a signal (" + std::string(::strsignal(result.code)) + ")";
+    case SandboxResult::End::killed: return "its program was ended by a signal (" + result.signal + ")";
     case SandboxResult::End::exited:
-      if (const int signal = result.code - kSignals; signal > 0 && signal < NSIG)
-        return "its program was ended by a signal (" + std::string(::strsignal(signal)) + ")";
+      if (!result.signal.empty()) return "its program was ended by a signal (" + result.signal + ")";
       return result.code == 0 ? "" : "its program ended with the exit code " + std::to_string(result.code);
     case SandboxResult::End::notIsolated:
     case SandboxResult::End::couldNotStart: return "its program was not run";
@@ -62,10 +54,9 @@ LoadedPicture programPicture(const ProgramRun& run, const std::string& folder, c
     if (!end.empty() && why != end) why += "; " + end;
     throw Error(Fault::io, why + (said.empty() ? "" : ": " + said));
   };
-  const bool tooLarge = result.end == SandboxResult::End::killed && result.code == SIGXFSZ;
-  if (result.output == SandboxResult::Output::tooLarge || tooLarge)
+  if (result.output == SandboxResult::Output::tooLarge)
     fail("its picture is larger than the " + megabytes(run.limits.output) + " that it may have");
-  const bool isKilled = result.code > kSignals && result.output == SandboxResult::Output::none;
+  const bool isKilled = !result.signal.empty() && result.output == SandboxResult::Output::none;
   if (result.end != SandboxResult::End::exited || isKilled) fail("");
   if (result.output == SandboxResult::Output::noFile) fail("what its program wrote is no regular file");
   if (result.output == SandboxResult::Output::none) fail("its program wrote no picture");

@@ -122,13 +122,13 @@ bool Checkpoint::isOurs(const std::string& path) const {
 }
 
 std::vector<std::string> Checkpoint::all() const {
-  const std::string first = checkpointName(picture_, 1), name = fs::path(first).filename().string();
+  const std::string first = checkpointName(picture_, 1), name = fs::path(first).filename().generic_string();
   std::set<int> numbers;  // some may have been taken away in between
   std::error_code error;
   const fs::path folder = fs::path(first).parent_path();
   fs::directory_iterator files(folder.empty() ? fs::path(".") : folder, error), end;
   for (; !error && files != end; files.increment(error)) {
-    const std::string file = files->path().filename().string();
+    const std::string file = files->path().filename().generic_string();
     if (file == name) numbers.insert(1);
     if (!file.starts_with(name + "-")) continue;
     const std::string digits = file.substr(name.size() + 1);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
@@ -74,7 +75,7 @@ std::string filmIdentity(const Metadata& metadata, const Settings& settings, con
 std::optional<FilmHead> filmHead(const std::string& path) {
   constexpr std::size_t kLongest = 1 << 20;  // longest of lines that say of which picture it is
   if (!isOrdinaryFile(path)) return {};      // a pipe might never answer
-  std::ifstream file(path, std::ios::binary);
+  std::ifstream file(std::filesystem::path(path), std::ios::binary);
   std::string begin(kLongest, '\0');
   begin.resize(static_cast<std::size_t>(file.read(begin.data(), kLongest).gcount()));
   if (!begin.starts_with(kFilmBegin)) return {};

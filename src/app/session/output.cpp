@@ -32,9 +32,9 @@ constexpr std::string_view kPasses = "Passes";
 std::string passFile(const fs::path& picture, std::string_view pass, PassFormat format, PassName name) {
   const std::string suffix = format == PassFormat::exr   ? ".exr"
                              : format == PassFormat::png ? ".png"
-                                                         : picture.extension().string();
+                                                         : picture.extension().generic_string();
   const char* between = name == PassName::dot ? "." : "_";
-  return (picture.parent_path() / picture.stem()).string() + between + std::string(pass) + suffix;
+  return (picture.parent_path() / picture.stem()).generic_string() + between + std::string(pass) + suffix;
 }
 
 /// The words, with only those options that change what is rendered, and are not of the group `without`.
@@ -77,9 +77,10 @@ Metadata wordsOf(const Output& output, const Metadata& metadata) {
 
 /// The name of a fragment beside the picture; there may be several, numbered from 1.
 std::string besidePicture(const fs::path& picture, int number) {
-  const std::string name = picture.stem().string() + kPartial +
-                           (number == 1 ? "" : "-" + std::to_string(number)) + picture.extension().string();
-  return (picture.parent_path() / name).string();
+  const std::string name = picture.stem().generic_string() + kPartial +
+                           (number == 1 ? "" : "-" + std::to_string(number)) +
+                           picture.extension().generic_string();
+  return (picture.parent_path() / name).generic_string();
 }
 
 /// Whether the words of the file say that it is a part of the picture, or pass, with these words, whatever
@@ -113,7 +114,8 @@ bool isFragment(const std::string& path) {
   try {
     for (const auto& [key, text] : readMetadata(path))
       if (key == kIncomplete) return true;
-    return !keepsWords(path) && fs::path(path).filename().string().find(kPartial) != std::string::npos;
+    return !keepsWords(path) &&
+           fs::path(path).filename().generic_string().find(kPartial) != std::string::npos;
   } catch (const std::exception&) {  // whatever it is, it is not ours
     return false;
   }
@@ -155,7 +157,7 @@ Metadata describe(const Scene& scene, const Settings& settings) {
     if (findOption(choice.option).group != kResources)
       changed += (changed.empty() ? "" : " ") + choice.option + "=" + choice.value;
   return {{"Software", "Trace " TRACE_VERSION},
-          {"Title", fs::path(scene.file).filename().string()},
+          {"Title", fs::path(scene.file).filename().generic_string()},
           {kSettings, changed.empty() ? kDefaults : changed},
           {kProgramWord, programText()}};
 }

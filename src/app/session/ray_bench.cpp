@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 #include <optional>
 
 #include "app/session/session.h"
 #include "base/budget.h"
+#include "base/os/process.h"
 #include "math/perpendicular.h"
 #include "render/picture/render.h"
 #include "render/samples/pixel.h"
@@ -18,8 +18,6 @@ struct Query {
   Ray ray;
   Real tMost = kInfinity;
 };
-
-double cpuSeconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Cosine-distributed about the normal; the i-th of a sequence that fills the square evenly (Roberts 2018).
 Vec3 aroundNormal(const Vec3& normal, std::uint64_t i) {
@@ -59,11 +57,11 @@ RayBench::Kind measureKind(const World& world, std::string_view name, const std:
 
   std::vector<double> seconds;
   for (int pass = 0; pass < passes; ++pass) {
-    const double begin = cpuSeconds();
+    const double begin = os::cpuSeconds();
     double spent = 0, rounds = 0;
     do {
       answer(world, queries, anyHit, statistics);
-      spent = cpuSeconds() - begin;
+      spent = os::cpuSeconds() - begin;
       ++rounds;
     } while (spent < kLeastSeconds);
     seconds.push_back(spent / rounds);
@@ -82,9 +80,9 @@ RayBench benchRays(const Scene& scene, const Settings& settings, int passes, Mes
   checkMemory("the list of rays", size, (2 + scene.lights.size()) * sizeof(Query), settings);
   RayBench bench;
   const auto start = std::chrono::steady_clock::now();
-  const double cpu = cpuSeconds();
+  const double cpu = os::cpuSeconds();
   const World world = compile(scene, settings, messages);
-  bench.buildCpu = cpuSeconds() - cpu;
+  bench.buildCpu = os::cpuSeconds() - cpu;
   bench.buildWall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   bench.triangles = world.triangleCount();
   bench.bytes = world.bytes();

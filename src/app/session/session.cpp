@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
-#include <fstream>
 #include <iterator>
 
 #include "app/advice/auto_exposure.h"
@@ -11,6 +9,8 @@
 #include "base/budget.h"
 #include "base/files/file.h"
 #include "base/files/read_scope.h"
+#include "base/os/memory.h"
+#include "base/os/process.h"
 #include "base/text.h"
 #include "formats/kind_defaults.h"
 #include "image/development/denoise.h"
@@ -21,10 +21,6 @@
 #include "scene/picture_size.h"
 #include "scene/quality.h"
 
-#if defined(__unix__) || defined(__APPLE__)
-#include <unistd.h>
-#endif
-
 namespace trace {
 namespace {
 
@@ -33,12 +29,12 @@ class Stopwatch {
  public:
   Phase stop(std::string name) const {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_;
-    return {std::move(name), wall.count(), static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC};
+    return {std::move(name), wall.count(), os::cpuSeconds() - cpu_};
   }
 
  private:
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
-  std::clock_t cpu_ = std::clock();
+  double cpu_ = os::cpuSeconds();
 };
 
 /// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
@@ -82,20 +78,9 @@ PictureLimits pictureLimits(const Settings& settings) { return {.memory = allowe
 
 }  // namespace
 
-std::uint64_t machineMemory() {
-#if defined(_SC_PHYS_PAGES) && !defined(__EMSCRIPTEN__)
-  std::uint64_t bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
-                        static_cast<std::uint64_t>(::sysconf(_SC_PAGE_SIZE));
-  std::uint64_t limit = 0;
-  if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit) bytes = std::min(bytes, limit);
-  return bytes;
-#else
-  return std::uint64_t{2} << 30;  // a browser's address space
-#endif
-}
-
 std::uint64_t allowedMemory(const Settings& settings) {
-  return settings.maxMemory > 0 ? static_cast<std::uint64_t>(settings.maxMemory) << 20 : machineMemory() / 2;
+  return settings.maxMemory > 0 ? static_cast<std::uint64_t>(settings.maxMemory) << 20
+                                : os::machineMemory() / 2;
 }
 
 void checkMemory(const std::string& what, const Size& size, std::uint64_t bytesPerPixel,
@@ -134,7 +119,7 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   if (budgetOfThread.budget) budgetOfThread.budget->letFinish(false);
   strict_ = strict;
   messages_ = {};
-  const std::string bytes = readFile(file == kStandardInput ? "/dev/stdin" : file);
+  const std::string bytes = file == kStandardInput ? readStandardInput() : readFile(file);
   SceneAtMoment read = readSceneAtItsMoment(file, bytes, choices, messages_);
   scene_ = std::move(read.scene);
   completeBareMesh(scene_);

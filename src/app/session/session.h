@@ -142,9 +142,6 @@ class Session {
   Real measuredExposure_ = 0;
 };
 
-/// Bytes of memory the machine has for this process: the physical memory, or a smaller control-group limit.
-std::uint64_t machineMemory();
-
 /// Bytes of memory that a scene may take: what --max-memory says, or half of what the machine has.
 std::uint64_t allowedMemory(const Settings& settings);
 

@@ -43,7 +43,7 @@ std::vector<ExampleScene> found(const std::string& folder, const std::array<Row,
   for (const Row& row : rows) {
     std::error_code none;
     if (const fs::path file = fs::path(folder) / row.file; fs::exists(file, none))
-      scenes.push_back({row.title, row.about, file.string()});
+      scenes.push_back({row.title, row.about, file.generic_string()});
   }
   return scenes;
 }
@@ -56,7 +56,7 @@ std::string examplesFolder(const std::string& program) {
        {"../share/doc/trace/scenes", "../share/doc/trace-ray/scenes", "../../../scenes"}) {
     std::error_code none;
     if (const fs::path scenes = folder / place; fs::exists(scenes / kExamples.front().file, none))
-      return scenes.lexically_normal().string();
+      return scenes.lexically_normal().generic_string();
   }
   return "";
 }

@@ -7,7 +7,9 @@
 #include "base/files/read_scope.h"
 
 namespace trace {
+
 namespace fs = std::filesystem;
+
 std::string readBeside(const std::string& from, const std::string& name) {
   const std::string path = besideFile(from, name);
   checkMayRead(path);
@@ -19,7 +21,17 @@ std::string readBeside(const std::string& from, const std::string& name) {
 
 std::string besideFile(const std::string& from, const std::string& name) {
   const fs::path path(name);
-  return path.is_absolute() ? name : (fs::path(from).parent_path() / path).string();
+  return path.is_absolute() ? name : (fs::path(from).parent_path() / path).generic_string();
+}
+
+bool sameFile(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  if (fs::exists(a, error) || fs::exists(b, error)) return false;
+  const fs::path first = fs::weakly_canonical(a, error);
+  if (error) return a == b;
+  const fs::path second = fs::weakly_canonical(b, error);
+  return error ? a == b : first == second;
 }
 
 }  // namespace trace

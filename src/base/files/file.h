@@ -12,6 +12,9 @@ namespace trace {
 /// into for some seconds. Waits for a pipe's writer as long as the budget of the thread lets it.
 std::string readFile(const std::string& path);
 
+/// The bytes that come in on the standard input until its end. Throws as readFile().
+std::string readStandardInput();
+
 /// At most so many bytes from its start. Throws Error(Fault::io) also for a pipe.
 std::string readStart(const std::string& path, std::size_t most);
 

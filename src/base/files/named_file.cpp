@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 bool isReadable(const fs::path& path) {
   std::error_code ignored;
-  return mayRead(path.string()) && fs::is_regular_file(path, ignored);
+  return mayRead(path.generic_string()) && fs::is_regular_file(path, ignored);
 }
 
 std::string lowered(std::string text) {
@@ -74,13 +74,13 @@ std::vector<std::string> spellings(const std::string& name) {
 /// The entry of the folder whose name differs at most in the case of its letters; "" if there is none.
 std::string entryOfAnyCase(const fs::path& folder, const std::string& name) {
   constexpr int kMostEntries = 10000;
-  if (!mayRead(folder.string())) return {};
+  if (!mayRead(folder.generic_string())) return {};
   const std::string wanted = lowered(name);
   std::string found;
   std::error_code error;
   fs::directory_iterator i(folder.empty() ? "." : folder, error);
   for (int n = 0; !error && i != fs::directory_iterator() && n < kMostEntries; i.increment(error), ++n) {
-    const std::string entry = i->path().filename().string();
+    const std::string entry = i->path().filename().generic_string();
     if (lowered(entry) == wanted && (found.empty() || entry < found)) found = entry;
   }
   return found;
@@ -91,11 +91,11 @@ std::optional<fs::path> inAnyCase(fs::path folder, const fs::path& path) {
   for (const fs::path& part : path) {
     std::error_code ignored;
     if (part == "." || part == ".." ||
-        (mayRead((folder / part).string()) && fs::exists(folder / part, ignored))) {
+        (mayRead((folder / part).generic_string()) && fs::exists(folder / part, ignored))) {
       folder /= part;
       continue;
     }
-    const std::string entry = entryOfAnyCase(folder, part.string());
+    const std::string entry = entryOfAnyCase(folder, part.generic_string());
     if (entry.empty()) return {};
     folder /= entry;
   }
@@ -149,13 +149,13 @@ NamedFile namedFile(const std::string& from, const std::string& name) {
   std::string found;
   const Visit exactly = [&](const fs::path& folder, const fs::path& rest) {
     const fs::path path = folder / rest;
-    if (isReadable(path)) found = path.string();
+    if (isReadable(path)) found = path.generic_string();
     return !found.empty();
   };
   const Visit anyCase = [&](const fs::path& folder, const fs::path& rest) {
     if (rest.is_absolute()) return false;
     const auto path = inAnyCase(folder, rest);
-    if (path && isReadable(*path)) found = path->string();
+    if (path && isReadable(*path)) found = path->generic_string();
     return !found.empty();
   };
   using Search = bool (*)(const fs::path&, const fs::path&, const Visit&);
@@ -164,7 +164,7 @@ NamedFile namedFile(const std::string& from, const std::string& name) {
       for (const std::string& spelling : names)
         if (search(home, spelling, *visit)) {
           if (visit == &exactly) return {found, {}};
-          return {found, "\"" + name + "\" is the file \"" + fs::path(found).filename().string() +
+          return {found, "\"" + name + "\" is the file \"" + fs::path(found).filename().generic_string() +
                              "\": letters differ in their case"};
         }
   return {besideFile(from, name), {}};

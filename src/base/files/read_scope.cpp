@@ -20,7 +20,7 @@ std::string realPath(const fs::path& path) {
   fs::path real = fs::weakly_canonical(whole, error);
   if (error) return {};
   if (!real.has_filename() && real.has_parent_path() && real != real.root_path()) real = real.parent_path();
-  return real.string();
+  return real.generic_string();
 }
 
 /// Is the path the folder, or below it?
@@ -94,7 +94,7 @@ void checkMayRead(const std::string& path) {
   if (folder.empty()) folder = ".";
   throw ReadDenied(Fault::scene,
                    "\"" + path + "\" is outside the scene's folder, and a scene may read only below that",
-                   "--allow-read " + shellWord(folder.string()) + " allows it (docs/security.md)");
+                   "--allow-read " + shellWord(folder.generic_string()) + " allows it (docs/security.md)");
 }
 
 }  // namespace trace

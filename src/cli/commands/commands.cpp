@@ -12,9 +12,9 @@
 #include "base/budget.h"
 #include "base/files/file.h"
 #include "base/files/read_scope.h"
+#include "base/os/memory.h"
 #include "base/parallel.h"
 #include "base/text.h"
-#include "cli/terminal/memory_limit.h"
 #include "cli/terminal/overseer.h"
 #include "cli/terminal/terminal.h"
 #include "cli/text/help.h"
@@ -76,7 +76,7 @@ int codeOf(const Command& command, const Arguments& arguments, Fault fault) {
 int runLimited(const Command& command, const Arguments& arguments, const Console& console, Budget& budget) {
   if (command.verb == Verb::gui) return command.run(arguments, console);  // has no end of its own
   const Settings given = resolve({arguments.choices});
-  limitMemory(allowedMemory(given), given.threads > 0 ? given.threads : hardwareThreads());
+  os::limitMemory(allowedMemory(given), given.threads > 0 ? given.threads : hardwareThreads());
   budget.limitTime(given.timeLimit);
   const BudgetScope scope(&budget);
   const ReadScope reading(allowedFiles(arguments));
@@ -109,14 +109,14 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
     }
     return runLimited(command, arguments, console, budget);
   } catch (const Error& error) {
-    liftMemoryLimit();
+    os::liftMemoryLimit();
     console.error(error);
     why = whyNothing(error, understood);
     fault = error.fault();
   } catch (const ReaderGone&) {
     return kReaderGone;
   } catch (const std::bad_alloc&) {
-    liftMemoryLimit();
+    os::liftMemoryLimit();
     console.error(outOfMemory(budget.brokenOff()));
     why = "out of memory";
     fault = Fault::limit;
@@ -127,7 +127,7 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
   } catch (const std::system_error& error) {
     const bool noThread = error.code() == std::errc::resource_unavailable_try_again;
     fault = noThread ? Fault::limit : Fault::io;
-    liftMemoryLimit();
+    os::liftMemoryLimit();
     why = noThread ? "memory for threads is missing" : "the system refused";
     console.error(noThread ? Error(fault, "the system starts no more threads",
                                    "a thread needs memory for its stack; -t 1 takes one")
@@ -145,7 +145,7 @@ int runCommand(const Command& command, const std::vector<std::string>& words, bo
 int runAlone() {
   constexpr const char* kScene = "scene.ray";
   const Console console;
-  console.last(false, briefHelp());
+  console.lines(LogLevel::error, briefHelp());
   std::error_code ignored;
   if (std::filesystem::exists(kScene, ignored) || std::filesystem::exists("scene.png", ignored)) {
     console.error(noWindow());

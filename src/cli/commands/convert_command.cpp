@@ -14,9 +14,9 @@
 #include "base/budget.h"
 #include "base/files/file.h"
 #include "base/files/read_scope.h"
+#include "base/os/memory.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
-#include "cli/terminal/memory_limit.h"
 #include "cli/terminal/watch.h"
 #include "cli/text/scene_facts.h"
 #include "formats/format.h"
@@ -68,13 +68,13 @@ std::string outsideText(const std::vector<NamedBytes>& files, const InputFiles& 
   for (const InputFile& input : inputs.all()) {
     if (mayRead(input.path)) continue;
     const fs::path path = fs::absolute(input.path, ignored).lexically_normal();
-    const std::string there = path.lexically_relative(folder).string();
+    const std::string there = path.lexically_relative(folder).generic_string();
     const auto isNamed = [&](const NamedBytes& file) {
       return file.bytes.find(there) != std::string::npos ||
-             file.bytes.find(path.string()) != std::string::npos;
+             file.bytes.find(path.generic_string()) != std::string::npos;
     };
     if (!std::any_of(files.begin(), files.end(), isNamed)) continue;
-    const std::string parent = fs::path(input.path).lexically_normal().parent_path().string();
+    const std::string parent = fs::path(input.path).lexically_normal().parent_path().generic_string();
     folders.insert(parent.empty() ? "." : parent);
   }
   std::string flags;
@@ -182,9 +182,9 @@ std::string convert(const std::string& in, const std::string& out, const Argumen
 /// Empty for files with another suffix.
 std::string courseOutput(const std::string& in) {
   const std::filesystem::path path(in);
-  const std::string suffix = path.extension().string();
+  const std::string suffix = path.extension().generic_string();
   const bool isVrml = sameWord(suffix, ".wrl") || sameWord(suffix, ".iv");
-  return isVrml ? std::filesystem::path(path).replace_extension(".out").string() : "";
+  return isVrml ? std::filesystem::path(path).replace_extension(".out").generic_string() : "";
 }
 
 }  // namespace
@@ -203,7 +203,7 @@ int convertCommand(const Arguments& arguments, const Console& console) {
   try {
     console.last(true, convert(in, out, arguments, console));
   } catch (const std::bad_alloc&) {
-    liftMemoryLimit();
+    os::liftMemoryLimit();
     throw outOfMemory(budgetOfThread.budget->brokenOff(), in);
   } catch (const std::length_error&) {  // more of something than addresses
     throw outOfMemory(budgetOfThread.budget->brokenOff(), in);

@@ -46,7 +46,7 @@ std::array<int, N> wholeNumbers(const std::string& flag, const std::string& text
 /// something else, such as .jpg.
 std::string_view formatOf(const Arguments& arguments) {
   if (arguments.format) return chosenFormat(arguments, "explain", kExplainFormats);
-  const std::string suffix = std::filesystem::path(arguments.output).extension().string();
+  const std::string suffix = std::filesystem::path(arguments.output).extension().generic_string();
   for (std::string_view format : kExplainFormats)
     if (suffix == "." + std::string(format)) return format;
   if (suffix.empty() || suffix == ".txt" || suffix == ".log") return "text";

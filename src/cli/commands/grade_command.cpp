@@ -132,7 +132,7 @@ std::string gradesJson(const Arguments& arguments, const Grades& grades) {
 
 /// The page's name with another suffix; "" of none.
 std::string besidePage(const std::string& page, const char* suffix) {
-  return page.empty() ? "" : std::filesystem::path(page).replace_extension(suffix).string();
+  return page.empty() ? "" : std::filesystem::path(page).replace_extension(suffix).generic_string();
 }
 
 std::string classText(const ClassGrades& grades) {

@@ -1,14 +1,13 @@
 // ray gui, and ray alone: becomes ray-studio, the program beside this one that has the window.
-#include <cstdlib>
 #include <filesystem>
 
+#include "base/os/process.h"
 #include "cli/commands/commands.h"
-#include "cli/terminal/terminal.h"
 
 namespace trace::cli {
 
 std::string studioProgram() {
-  const std::string studio = (std::filesystem::path(ownFolder()) / "ray-studio").string();
+  const std::string studio = os::programIn(os::ownFolder(), "ray-studio");
   std::error_code ignored;
   return std::filesystem::exists(studio, ignored) ? studio : "";
 }
@@ -16,28 +15,17 @@ std::string studioProgram() {
 namespace {
 
 Error noStudio() {
-  return {Fault::io,
-          "the studio, the window of Trace, was not built: there is no ray-studio in \"" + ownFolder() + "\"",
-          "./dev studio, in the source of Trace, installs what it needs (libimgui-dev libglfw3-dev "
-          "libgl-dev) and builds it; beside the Debian package trace-ray install trace-ray-studio; ray SCENE "
-          "renders without a window"};
-}
-
-bool hasDisplay() {
-#ifdef __APPLE__
-  return true;
-#else
-  const auto isSet = [](const char* name) {
-    const char* value = std::getenv(name);
-    return value && *value;
-  };
-  return isSet("DISPLAY") || isSet("WAYLAND_DISPLAY");
-#endif
+  return {
+      Fault::io,
+      "the studio, the window of Trace, was not built: there is no ray-studio in \"" + os::ownFolder() + "\"",
+      "./dev studio, in the source of Trace, installs what it needs (libimgui-dev libglfw3-dev "
+      "libgl-dev) and builds it; beside the Debian package trace-ray install trace-ray-studio; ray SCENE "
+      "renders without a window"};
 }
 
 }  // namespace
 
-bool opensWindows() { return !studioProgram().empty() && hasDisplay(); }
+bool opensWindows() { return !studioProgram().empty() && os::hasDisplay(); }
 
 Error noWindow() {
   if (studioProgram().empty()) return noStudio();
@@ -55,7 +43,7 @@ int guiCommand(const Arguments& arguments, const Console&) {
   words.insert(words.end(), arguments.files.begin(), arguments.files.end());
   for (const Choice& choice : arguments.choices) words.push_back("--" + choice.option + "=" + choice.value);
   for (const std::string& folder : arguments.allowRead) words.push_back("--allow-read=" + folder);
-  becomeProgram(words);
+  os::becomeProgram(words);
 }
 
 }  // namespace trace::cli

@@ -77,7 +77,7 @@ std::vector<std::string> filesOfJobs(const std::string& folder, const Render& re
   for (const FolderEntry& entry : listFolder(folder, {".part"})) {
     checkBudget();
     if (entry.folder) continue;
-    const std::string path = (fs::path(folder) / entry.name).string();
+    const std::string path = (fs::path(folder) / entry.name).generic_string();
     const auto head = filmHead(path);
     if (!head)
       throw Error(Fault::io, Place{.file = path}, "expected a part of a picture, found another kind of file",
@@ -125,7 +125,7 @@ int mergeCommand(const Arguments& arguments, const Console& console) {
   const std::vector<std::string> parts = filesOfJobs(folder, render);
   const std::string pattern = !arguments.output.empty() || frames.empty()
                                   ? arguments.output
-                                  : fs::path(render.arguments.files[0]).stem().string() + ".####.png";
+                                  : fs::path(render.arguments.files[0]).stem().generic_string() + ".####.png";
   if (frames.size() > 1 && pattern.find('#') == std::string::npos)
     throw Error(Fault::usage,
                 "expected a name with #### for the number of the frame, found \"" + pattern + "\"",

@@ -60,7 +60,7 @@ constexpr std::string_view kStandardOutput = "-";
 class PictureForStdout {
  public:
   explicit PictureForStdout(const std::string& format)
-      : folder_(makeOwnFolder()), picture_((folder_ / ("picture." + format)).string()) {}
+      : folder_(makeOwnFolder()), picture_((folder_ / ("picture." + format)).generic_string()) {}
   ~PictureForStdout() {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
@@ -115,7 +115,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
                 "the name of another file chooses its format, as in -o out.exr");
   if (arguments.part > 0) return renderPart(arguments, named, console);
   if (!arguments.frames.empty()) {
-    const std::string frames = fs::path(arguments.files[0]).stem().string() + ".####.png";
+    const std::string frames = fs::path(arguments.files[0]).stem().generic_string() + ".####.png";
     return renderFrames(arguments, named.empty() ? frames : named, console);
   }
   if (!named.empty()) pictureFormatFor(named);  // an unknown ending is told before a large scene is read

@@ -1,9 +1,9 @@
 // ray split SCENE --parts N: a folder with the jobs of a render, for many machines (parts.h). It holds
 // parts.list, which ray merge reads; render.sh, which renders one job; a Makefile; and farm.slurm.
-#include <cstdlib>
 #include <filesystem>
 
 #include "base/files/file.h"
+#include "base/os/process.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/frames.h"
@@ -25,8 +25,7 @@ std::string quoted(const std::string& word) {
 /// The flags of the whole render, as `ray render` reads them. Threads that the environment chose are left to
 /// each machine.
 std::vector<std::string> flagsOf(const Arguments& arguments) {
-  const char* threads = std::getenv("RAY_THREADS");
-  const bool skipsFirst = threads && *threads;
+  const bool skipsFirst = !os::variable("RAY_THREADS").empty();
   std::vector<std::string> words;
   for (std::size_t i = skipsFirst ? 1 : 0; i < arguments.choices.size(); ++i)
     words.push_back("--" + arguments.choices[i].option + "=" + arguments.choices[i].value);
@@ -126,11 +125,11 @@ int splitCommand(const Arguments& given, const Console& console) {
     for (Choice& choice : exposureOfAll(arguments)) arguments.choices.push_back(std::move(choice));
 
   const std::string folder =
-      arguments.output.empty() ? fs::path(scene).stem().string() + ".parts" : arguments.output;
+      arguments.output.empty() ? fs::path(scene).stem().generic_string() + ".parts" : arguments.output;
   const Jobs jobs{std::max<std::int64_t>(1, std::ssize(arguments.frames)) * parts,
-                  ownFolder() + "/ray",
-                  fs::current_path().string(),
-                  fs::absolute(folder).lexically_normal().string(),
+                  os::programIn(os::ownFolder(), "ray"),
+                  fs::current_path().generic_string(),
+                  fs::absolute(folder).lexically_normal().generic_string(),
                   flagsOf(arguments),
                   scene,
                   arguments,
@@ -155,7 +154,7 @@ int splitCommand(const Arguments& given, const Console& console) {
   fs::create_directories(folder, error);
   if (error) throw Error(Fault::io, "cannot make the folder \"" + folder + "\": " + error.message());
   const auto write = [&](const char* name, const std::string& text) {
-    writeFile((fs::path(folder) / name).string(), text);
+    writeFile((fs::path(folder) / name).generic_string(), text);
   };
   write("render.sh", renderScript(jobs));
   write("Makefile", makefile(jobs));

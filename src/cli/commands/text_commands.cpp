@@ -51,14 +51,15 @@ int newCommand(const Arguments& arguments, const Console& console) {
   if (file.extension().empty()) file += ".ray";
   if (file.extension() != ".ray" && file.extension() != ".tr")
     throw Error(Fault::usage,
-                "ray new: expected a name that ends in .ray or .tr, found \"" + file.string() + "\"");
+                "ray new: expected a name that ends in .ray or .tr, found \"" + file.generic_string() + "\"");
   std::error_code ignored;
   if (fs::exists(file, ignored))
-    throw Error(Fault::usage, "there is a file \"" + file.string() + "\", and ray new overwrites nothing",
+    throw Error(Fault::usage,
+                "there is a file \"" + file.generic_string() + "\", and ray new overwrites nothing",
                 "ray new other.ray");
-  checkWritable(file.string());
-  writeFile(file.string(), std::string(kFirstScene));
-  console.last(true, "wrote " + file.string() + "; next: ray " + file.string());
+  checkWritable(file.generic_string());
+  writeFile(file.generic_string(), std::string(kFirstScene));
+  console.last(true, "wrote " + file.generic_string() + "; next: ray " + file.generic_string());
   return kDone;
 }
 

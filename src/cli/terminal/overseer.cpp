@@ -1,7 +1,5 @@
 #include "cli/terminal/overseer.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +8,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/os/process.h"
 #include "base/text.h"
 #include "cli/terminal/terminal.h"
 
@@ -58,8 +57,7 @@ void Overseer::endIfLate() const {
   const std::string text =
       "error: the time limit of " + toText(limit) + " s is over" + (doing.empty() ? "" : " while " + doing) +
       "\n" + (lateEnd_.writes ? "nothing written: a limit of size, memory or time was reached\n" : "");
-  if (::write(STDERR_FILENO, text.data(), text.size()) < 0) ::_exit(lateEnd_.code);
-  ::_exit(lateEnd_.code);
+  os::endAtOnce(text, lateEnd_.code);
 }
 
 void Overseer::report() {

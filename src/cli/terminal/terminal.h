@@ -1,13 +1,11 @@
-// The system around the program: the terminal, signals, memory. The only file that knows POSIX.
+// The terminal that the program draws on, and how a person stops the program there.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
+#include "base/os/interrupts.h"
 
 namespace trace::cli {
 
-/// stderr is a terminal on which a line can be drawn again (TERM is not "dumb").
+/// stderr is a terminal on which a line can be drawn again.
 bool canRedraw();
 /// ... and colours are welcome (https://no-color.org).
 bool canColor();
@@ -16,18 +14,14 @@ bool canColorResult();
 /// The width of the terminal, by COLUMNS or by asking it; 80 when neither tells.
 int columns();
 
-/// The folder that this program lies in; "" if the system does not tell.
-std::string ownFolder();
-/// Replaces this program by another, with its arguments. Throws Error(Fault::io) if that fails.
-[[noreturn]] void becomeProgram(const std::vector<std::string>& words);
-
-/// The most memory this process ever held, in bytes.
-std::uint64_t peakMemory();
+/// Whatever ends the program in spite of all, such as a lack of memory that lasts, ends with a message and
+/// an exit code. The message takes no memory.
+void endWithMessage();
 
 /// Thrown by Signals::look().
 struct StoppedByUser {};
 
-/// Turns signals into events for one thread that waits. Make one at a time.
+/// Turns interrupts into events for one thread that waits. Make one at a time.
 ///
 /// Ctrl-C and SIGTERM: at first the process ends at once, with code 130 and a last line. After
 /// preparingBegins() and finishingBegins() the first makes look() throw, after renderingBegins() it gives
@@ -55,6 +49,10 @@ class Signals {
   Event wait(int milliseconds);
   /// Ends a wait() of another thread.
   void wake();
+
+ private:
+  os::Bell bell_;
+  os::InterruptHandler handler_;
 };
 
 }  // namespace trace::cli

@@ -160,7 +160,7 @@ std::optional<PaintedPicture> Reader::pictureOf(const Values& v) {
   } else if (const auto image = inlineImage(v.numbers("image"))) {
     picture.kind = {.colored = image->channels > 2, .transparent = image->hasAlpha()};
     const auto line = std::to_string(place.line) + ":" + std::to_string(place.column);
-    const std::string file = std::filesystem::path(document_.file()).filename().string();
+    const std::string file = std::filesystem::path(document_.file()).filename().generic_string();
     picture.map = modelPicture({file + "#" + line, std::make_shared<const MipMap>(*image), place,
                                 std::make_shared<const InsideFile>(InsideFile{"", encodePng(*image)})});
     if (image->width == 1 || image->height == 1) picture.map.filter = TexelFilter::bilinear;

@@ -163,8 +163,8 @@ NamedBytes placeOfMaterials(const std::string& obj) {
   NamedBytes materials;
   for (int number = 1;; ++number) {
     const std::string name =
-        path.stem().string() + (number == 1 ? "" : "-" + std::to_string(number)) + ".mtl";
-    materials.file = (path.parent_path() / name).string();
+        path.stem().generic_string() + (number == 1 ? "" : "-" + std::to_string(number)) + ".mtl";
+    materials.file = (path.parent_path() / name).generic_string();
     if (!fs::exists(materials.file, ignored) || namesMaterials(obj, materials.file)) return materials;
     if (number == 1) materials.spared = materials.file;
   }
@@ -304,7 +304,7 @@ std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, co
     materials.material(name, phongWithoutTextures(material), pictureOf(material));
   }
 
-  objects.line("mtllib", onOneLine(fs::path(materialFile.file).filename().string()));
+  objects.line("mtllib", onOneLine(fs::path(materialFile.file).filename().generic_string()));
   std::size_t colored = 0, triangles = 0, number = 0;
   bool named = false;  // a name holds until the next one
   for (const WorldMesh& part : meshes) {

@@ -52,7 +52,7 @@ Material painted(const std::string& from, const std::string& picture, InputFiles
   namespace fs = std::filesystem;
   const std::string bytes = readBeside("", pictureName(picture).file, inputs);
   const fs::path folder = fs::absolute(from).parent_path().lexically_normal();
-  const Pixels pixels{fs::absolute(picture).lexically_normal().lexically_relative(folder).string(),
+  const Pixels pixels{fs::absolute(picture).lexically_normal().lexically_relative(folder).generic_string(),
                       MipMap::decode(bytes, picture), Place{.file = picture}};
   const Texture texture = TextureNode{.model = modelPicture(pixels)};
   Phong phong;

@@ -6,6 +6,7 @@
 #include <zlib.h>
 
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <new>
@@ -85,8 +86,8 @@ void filter(int number, const unsigned char* row, const unsigned char* before, s
   }
 }
 
-long sumOf(const Row& filtered) {
-  long sum = 0;
+std::int64_t sumOf(const Row& filtered) {
+  std::int64_t sum = 0;
   for (std::size_t i = 1; i < filtered.size(); ++i)
     sum += std::abs(static_cast<int>(static_cast<signed char>(filtered[i])));
   return sum;
@@ -108,10 +109,10 @@ std::string encoded(const unsigned char* levels, int width, int height, int chan
   for (int y = 0; y < height; ++y) {
     lookAtBudget();
     const unsigned char* row = levels + static_cast<std::size_t>(y) * length;
-    long least = std::numeric_limits<long>::max();
+    std::int64_t least = std::numeric_limits<std::int64_t>::max();
     for (int number = 0; number < kFilters; ++number) {
       filter(number, row, y > 0 ? row - length : zeros.data(), step, tried);
-      const long size = sumOf(tried);
+      const std::int64_t size = sumOf(tried);
       if (size < least) least = size, std::swap(best, tried);
     }
     packed.add(best);

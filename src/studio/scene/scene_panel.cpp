@@ -150,7 +150,8 @@ void heading(Studio& studio, const std::string& name, std::string_view help, con
   ImGui::TextColored(studio.palette().accent, "%s", name.c_str());
   if (place.line > 0) {
     ImGui::SameLine();
-    ImGui::TextDisabled("%s:%d", std::filesystem::path(place.file).filename().string().c_str(), place.line);
+    ImGui::TextDisabled("%s:%d", std::filesystem::path(place.file).filename().generic_string().c_str(),
+                        place.line);
   }
   ImGui::PushTextWrapPos();
   ImGui::TextDisabled("%s", std::string(help).c_str());

@@ -21,7 +21,7 @@ void FileDialog::open(const std::string& title, Purpose purpose, const std::stri
   purpose_ = purpose;
   suffixes_ = std::move(suffixes);
   chosen_ = std::move(chosen);
-  name_ = purpose == Purpose::write ? fs::path(at).filename().string() : "";
+  name_ = purpose == Purpose::write ? fs::path(at).filename().generic_string() : "";
   open_ = appearing_ = focusName_ = true;
   enter(nearestFolder(at));
 }
@@ -42,7 +42,7 @@ void FileDialog::choose(const std::string& name) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
     if (purpose_ == Purpose::read) name_.clear();
-    return enter(path.lexically_normal().string());
+    return enter(path.lexically_normal().generic_string());
   }
   const bool exists = fs::exists(path, ignored);
   if (purpose_ == Purpose::read && !exists) {
@@ -54,7 +54,7 @@ void FileDialog::choose(const std::string& name) {
   } else {
     open_ = false;
     ImGui::CloseCurrentPopup();
-    chosen_(path.string());
+    chosen_(path.generic_string());
   }
 }
 

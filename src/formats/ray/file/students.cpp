@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -352,7 +353,7 @@ class Translator {
     return {};
   }
   static std::string numbered(std::string_view name, Real number) {
-    return std::string(name) + std::to_string(static_cast<long>(number));
+    return std::string(name) + std::to_string(static_cast<std::int64_t>(number));
   }
   bool canCombine(Index block, Index expression) const {
     const std::vector<Index> parts = children(expression);

@@ -140,13 +140,13 @@ class SettingsChange {
   std::string seenFromScene(const std::string& file) const {
     const std::filesystem::path below =
         std::filesystem::path(file).lexically_relative(folder_.lexically_normal());
-    return below.empty() || *below.begin() == ".." ? file : below.string();
+    return below.empty() || *below.begin() == ".." ? file : below.generic_string();
   }
   void change(const Option& option) {
     if (sameValue(option, resolve({choices_}), to_)) return;
     std::string value = option.get(to_);
     if (option.kind == Option::Kind::file && value != "none")
-      value = std::filesystem::absolute(value).lexically_normal().string();
+      value = std::filesystem::absolute(value).lexically_normal().generic_string();
     choices_.push_back({std::string(option.name), value, {}});
     if (option.kind == Option::Kind::file && value != "none") value = seenFromScene(value);
     std::optional<Item> field;

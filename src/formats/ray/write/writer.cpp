@@ -129,7 +129,7 @@ class Writer {
     for (const Choice& choice : scene_.choices) {
       const bool file = findOption(choice.option).kind == Option::Kind::file && choice.value != "none";
       const fs::path path = file ? besideFile(choice.place.file, choice.value) : "";
-      const std::string value = file ? fs::absolute(path).lexically_normal().string() : choice.value;
+      const std::string value = file ? fs::absolute(path).lexically_normal().generic_string() : choice.value;
       out_ += "  " + choice.option + " = " + writtenChoice(value) + ";\n";
     }
     out_ += "}\n\n";

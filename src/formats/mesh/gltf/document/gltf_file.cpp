@@ -114,7 +114,7 @@ tinygltf::Model checkedGltf(const std::string& file, std::string_view bytes, con
       nullptr);
   tinygltf::Model model;
   std::string errors, warnings;
-  const std::string folder = std::filesystem::path(file).parent_path().string();
+  const std::string folder = std::filesystem::path(file).parent_path().generic_string();
   const auto size = static_cast<unsigned>(bytes.size());
   bool good = false;
   try {

@@ -12,26 +12,23 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <optional>
-#include <random>
 #include <utility>
 
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/files/file.h"
-#include "base/hash.h"
+#include "base/os/linux.h"
+#include "base/os/temporary_name.h"
 
 namespace trace {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kStart = ".trace-", kEnd = ".tmp";
-constexpr int kDigits = 16;
 constexpr int kTries = 100;
 
 [[noreturn]] void failToWrite(const std::string& path, const std::string& reason) {
@@ -112,19 +109,6 @@ Target targetOf(const std::string& name) {
   return target;
 }
 
-std::string randomName(const std::string& folder) {
-  std::random_device random;
-  const std::uint64_t number = std::uint64_t{random()} << 32 | random();
-  return (fs::path(folder) / (std::string(kStart) + hexText(number) + std::string(kEnd))).string();
-}
-
-bool isOurs(std::string_view name) {
-  if (name.size() != kStart.size() + kDigits + kEnd.size()) return false;
-  const std::string_view digits = name.substr(kStart.size(), kDigits);
-  return name.starts_with(kStart) && name.ends_with(kEnd) &&
-         digits.find_first_not_of("0123456789abcdef") == digits.npos;
-}
-
 /// Takes the lock that says: a process is writing this. False if another one has it.
 bool lock(int file) { return ::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK; }
 
@@ -134,7 +118,7 @@ void removeLeftovers(const std::string& folder) {
   DIR* const all = ::opendir(folder.c_str());
   if (!all) return;
   while (const dirent* entry = ::readdir(all)) {
-    if (!isOurs(entry->d_name)) continue;
+    if (!os::isTemporaryName(entry->d_name)) continue;
     const std::string path = (fs::path(folder) / entry->d_name).string();
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     struct stat facts {};
@@ -150,9 +134,9 @@ class Temporary {
  public:
   enum class Name { ifNeeded, always };
 
-  Temporary(const Target& target, Name name) : target_(target) {
+  Temporary(const Target& target, [[maybe_unused]] Name name) : target_(target) {
     const mode_t mode = target.exists ? target.was.st_mode & 0777 : 0666;
-#if defined(O_TMPFILE)
+#if defined(TRACE_OS_LINUX) && defined(O_TMPFILE)
     if (name == Name::ifNeeded)
       file_ = Descriptor(::open(target.folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, mode));
 #endif
@@ -195,7 +179,7 @@ class Temporary {
         return true;
       }
       for (int i = 0; i < kTries && name_.empty(); ++i)
-        if (const std::string name = randomName(target_.folder); linkAs(name))
+        if (const std::string name = os::temporaryName(target_.folder); linkAs(name))
           name_ = name;
         else if (errno != EEXIST)
           return false;
@@ -210,7 +194,7 @@ class Temporary {
  private:
   void openNamed(mode_t mode) {
     for (int i = 0; i < kTries; ++i) {
-      const std::string name = randomName(target_.folder);
+      const std::string name = os::temporaryName(target_.folder);
       file_ = Descriptor(::open(name.c_str(), O_CREAT | O_EXCL | O_NOFOLLOW | O_WRONLY | O_CLOEXEC, mode));
       if (!file_ && errno == EEXIST) continue;
       if (!file_) failToWriteFor(target_.name, errno);
@@ -286,16 +270,6 @@ void checkWritable(const std::string& path) {
   if (!target.ordinary) return;
   removeLeftovers(target.folder);
   const Temporary unused(target, Temporary::Name::ifNeeded);
-}
-
-bool sameFile(const std::string& a, const std::string& b) {
-  std::error_code error;
-  if (fs::equivalent(a, b, error)) return true;
-  if (fs::exists(a, error) || fs::exists(b, error)) return false;
-  const fs::path first = fs::weakly_canonical(a, error);
-  if (error) return a == b;
-  const fs::path second = fs::weakly_canonical(b, error);
-  return error ? a == b : first == second;
 }
 
 std::string makeOwnFolder() {

@@ -17,8 +17,9 @@
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/os/linux.h"
 
-#if defined(__linux__)
+#if defined(TRACE_OS_LINUX)
 #include <sys/vfs.h>
 #endif
 
@@ -31,7 +32,7 @@ namespace {
 
 /// A file that the kernel makes up while it is read: those of /proc, /sys and the like.
 bool isMadeByTheKernel([[maybe_unused]] int file) {
-#if defined(__linux__)
+#if defined(TRACE_OS_LINUX)
   constexpr unsigned long kKinds[] = {0x9fa0,       // /proc
                                       0x62656572,   // /sys
                                       0x64626720,   // debugfs
@@ -138,6 +139,8 @@ std::string readFile(const std::string& path) {
   bytes.resize(read);
   return bytes;
 }
+
+std::string readStandardInput() { return readFile("/dev/stdin"); }
 
 bool isOrdinaryFile(const std::string& path) {
   struct stat facts {};

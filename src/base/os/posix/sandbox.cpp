@@ -16,8 +16,9 @@
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/files/file.h"
+#include "base/os/linux.h"
 
-#if defined(__linux__)
+#if defined(TRACE_OS_LINUX)
 
 #include <fcntl.h>
 #include <linux/audit.h>
@@ -561,6 +562,15 @@ Plan planOf(const SandboxJob& job, const std::string& own) {
   return plan;
 }
 
+/// The signal that ended the program or, as a shell reports it, a program that it started; 0 if none did.
+int signalOf(const Report& report) {
+  constexpr int kSignals =
+      128;  // the exit code of a shell whose program was ended by a signal is larger by this
+  if (report.end == SandboxResult::End::killed) return report.code;
+  const int signal = report.end == SandboxResult::End::exited ? report.code - kSignals : 0;
+  return signal > 0 && signal < NSIG ? signal : 0;
+}
+
 }  // namespace
 
 std::string inputPath(const SandboxJob& job) {
@@ -595,6 +605,9 @@ SandboxResult runSandboxed(const SandboxJob& job) {
   std::memcpy(&report, bytes.data(), sizeof report);
   SandboxResult result{
       .end = report.end, .code = report.code, .cpuSeconds = report.cpuSeconds, .output = report.output};
+  if (const int signal = signalOf(report)) result.signal = ::strsignal(signal);
+  if (report.end == SandboxResult::End::killed && report.code == SIGXFSZ)
+    result.output = SandboxResult::Output::tooLarge;
   if (report.said > kMostSaid || bytes.size() - sizeof report != report.said + report.bytes) {
     result.output = SandboxResult::Output::none;
     return result;
@@ -616,19 +629,6 @@ std::string whyNotIsolated() {
          : result.said.empty()                                        ? "the program did not start"
                                                                       : result.said;
 }
-
-}  // namespace trace
-
-#else
-
-namespace trace {
-
-std::string inputPath(const SandboxJob& job) { return job.input; }
-std::string outputPath(const SandboxJob& job, const std::string& ownFolder) {
-  return ownFolder + "/" + job.outputName;
-}
-SandboxResult runSandboxed(const SandboxJob&) { return {.said = whyNotIsolated()}; }
-std::string whyNotIsolated() { return "only Linux is known to keep a program apart"; }
 
 }  // namespace trace
 

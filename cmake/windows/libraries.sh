@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# Fills a folder with the libraries that Trace needs for Windows and Debian has no packages of: compiles Debian's sources of
+# them with mingw-w64, and links the headers of those that are only headers.
+#
+#   libraries.sh FOLDER     an empty or new folder; takes ten minutes on two cores
+set -euo pipefail
+
+folder="$(mkdir -p -- "$1" && cd -- "$1" && pwd -P)"
+toolchain="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)/toolchain.cmake"
+sources="$folder/sources"
+
+# The sources of the release that this machine runs, by lists of our own: those of the machine stay as they are.
+fetchSources() {
+  local release apt
+  release="$(. /etc/os-release && echo "$VERSION_CODENAME")"
+  mkdir -p "$sources/lists" "$sources/cache"
+  cd "$sources"
+  echo "deb-src [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg] http://deb.debian.org/debian $release main" >sources.list
+  apt=(apt-get -q -o "Dir::Etc::SourceList=$sources/sources.list" -o Dir::Etc::SourceParts=/dev/null
+       -o "Dir::State::Lists=$sources/lists" -o "Dir::Cache=$sources/cache" -o APT::Sandbox::User=root)
+  "${apt[@]}" update
+  "${apt[@]}" --download-only source "$@"
+  local description
+  for description in *.dsc; do
+    dpkg-source --no-check -x "$description"
+  done
+}
+
+compile() {  # SOURCE, then options of cmake
+  local source name
+  source="$(echo "$sources/$1"-[0-9]*/)"
+  name="$1"
+  shift
+  cmake -S "$source" -B "$folder/build/$name" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FILE="$toolchain" \
+    -DTRACE_WINDOWS_LIBRARIES="$folder" -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_INSTALL_LIBDIR=lib \
+    -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF -DCMAKE_POLICY_VERSION_MINIMUM=3.5 "$@"
+  cmake --build "$folder/build/$name"
+  cmake --install "$folder/build/$name"
+}
+
+# Files or folders of /usr/include. Links, since that folder holds the headers of this system too.
+headers() {
+  local header
+  mkdir -p "$folder/include"
+  for header in "$@"; do
+    ln -sfn "/usr/include/$header" "$folder/include/$header"
+  done
+}
+
+# A file by which find_package finds a library that is all headers.
+package() {  # PACKAGE TARGET VERSION
+  local package="$1" target="$2" version="$3" dir="$folder/lib/cmake/$1"
+  mkdir -p "$dir"
+  cat >"$dir/${package}Config.cmake" <<END
+if(NOT TARGET $target)
+  add_library($target INTERFACE IMPORTED)
+endif()
+END
+  cat >"$dir/${package}ConfigVersion.cmake" <<END
+set(PACKAGE_VERSION $version)
+set(PACKAGE_VERSION_COMPATIBLE TRUE)
+END
+}
+
+# A file by which pkg-config finds a library: some install it on other systems only.
+describe() {  # NAME VERSION LIBRARIES [FLAGS]
+  mkdir -p "$folder/lib/pkgconfig"
+  printf '%s\n' "Name: $1" "Description: $1" "Version: $2" "Libs: -L$folder/lib $3" "Cflags: -I$folder/include ${4:-}" \
+    >"$folder/lib/pkgconfig/$1.pc"
+}
+
+fetchSources imath openexr libwebp draco meshoptimizer
+headers CLI nlohmann stb tiny_obj_loader.h tiny_gltf.h
+package CLI11 CLI11::CLI11 2
+package nlohmann_json nlohmann_json::nlohmann_json 3
+describe zlib 1.2 -l:libz.a  # from Debian's libz-mingw-w64-dev
+describe OpenEXR 3.1 '-lOpenEXR-3_1 -lOpenEXRCore-3_1 -lIlmThread-3_1 -lIex-3_1 -lImath-3_1 -l:libz.a' \
+  "-I$folder/include/OpenEXR -I$folder/include/Imath"
+describe draco 1.5 -ldraco
+compile meshoptimizer
+compile imath -DPYTHON=OFF
+compile openexr -DOPENEXR_BUILD_TOOLS=OFF -DOPENEXR_INSTALL_EXAMPLES=OFF -DOPENEXR_INSTALL_TOOLS=OFF
+compile libwebp -DWEBP_BUILD_{ANIM_UTILS,CWEBP,DWEBP,GIF2WEBP,IMG2WEBP,VWEBP,WEBPINFO,WEBPMUX,EXTRAS}=OFF
+compile draco -DDRACO_TESTS=OFF
+if [[ -d /usr/src/googletest ]]; then
+  ln -sfn /usr/src/googletest "$sources/googletest-0"
+  compile googletest -DBUILD_GMOCK=OFF
+fi
+touch "$folder/complete"
