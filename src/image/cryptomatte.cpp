@@ -1,10 +1,10 @@
 #include "image/cryptomatte.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdio>
 #include <set>
 
+#include "base/bits.h"
 #include "base/budget.h"
 
 namespace trace {
@@ -50,12 +50,12 @@ std::uint32_t murmurHash3(std::string_view text) {
   for (std::size_t i = 0; i < blocks; ++i) {
     std::uint32_t k =
         byteAt(4 * i) | byteAt(4 * i + 1) << 8 | byteAt(4 * i + 2) << 16 | byteAt(4 * i + 3) << 24;
-    k = std::rotl(k * c1, 15) * c2;
-    hash = std::rotl(hash ^ k, 13) * 5 + 0xe6546b64u;
+    k = rotateLeft(k * c1, 15) * c2;
+    hash = rotateLeft(hash ^ k, 13) * 5 + 0xe6546b64u;
   }
   std::uint32_t tail = 0;
   for (std::size_t i = text.size(); i-- > 4 * blocks;) tail = tail << 8 | byteAt(i);
-  if (text.size() > 4 * blocks) hash ^= std::rotl(tail * c1, 15) * c2;
+  if (text.size() > 4 * blocks) hash ^= rotateLeft(tail * c1, 15) * c2;
   hash ^= static_cast<std::uint32_t>(text.size());
   hash = (hash ^ hash >> 16) * 0x85ebca6bu;
   hash = (hash ^ hash >> 13) * 0xc2b2ae35u;
@@ -105,7 +105,7 @@ void addCryptomatte(ExrFile& file, const std::string& layer, std::span<const std
                                    static_cast<std::size_t>(x)];
         const bool isThere =
             rank < pixel.size() && pixel[rank].number >= 1 && pixel[rank].number <= own.size();
-        ids.push_back(isThere ? std::bit_cast<float>(cryptomatteId(own[pixel[rank].number - 1])) : 0.0f);
+        ids.push_back(isThere ? bitCast<float>(cryptomatteId(own[pixel[rank].number - 1])) : 0.0f);
         covers.push_back(isThere ? static_cast<float>(pixel[rank].share) : 0.0f);
       }
     }

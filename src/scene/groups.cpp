@@ -113,7 +113,7 @@ NumberedObject objectOf(const Scene& scene, std::uint32_t number) {
     if (rest < countUses(*uses)) {  // the placement itself
       for (const GroupUses& u : *uses) {
         if (rest < u.list->size()) {
-          found.steps.push_back({&u, rest});
+          found.steps.push_back({&u, static_cast<std::size_t>(rest)});
           return found;
         }
         rest -= u.list->size();
@@ -130,7 +130,7 @@ NumberedObject objectOf(const Scene& scene, std::uint32_t number) {
       rest -= all;
     }
     if (!in) return {};
-    found.steps.push_back({in, rest / sizes[in->group]});
+    found.steps.push_back({in, static_cast<std::size_t>(rest / sizes[in->group])});
     rest %= sizes[in->group];
     objects = &scene.groups[in->group].objects;
     uses = &scene.groups[in->group].uses;

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 namespace trace {
@@ -16,7 +17,10 @@ struct InputFile {
   std::string path;        ///< as the program opens it
   bool read = false;       ///< false: the scene only names it
   std::uint64_t hash = 0;  ///< hash of its bytes, if it was read
-  auto operator<=>(const InputFile&) const = default;
+  bool operator==(const InputFile&) const = default;
+  bool operator<(const InputFile& b) const {
+    return std::tie(path, read, hash) < std::tie(b.path, b.read, b.hash);
+  }
 };
 
 class InputFiles {

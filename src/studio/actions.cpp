@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "studio/dialogs.h"
+#include "studio/host.h"
 #include "studio/panels.h"
 #include "studio/scene/selection.h"
 #include "studio/stage.h"
@@ -64,10 +65,35 @@ void zoomText(Studio& studio, float factor) {
   studio.themeChanged = true;
 }
 
+void copyLink(Studio& studio) {
+  const Document& document = studio.workspace.document;
+  const std::string file = (std::filesystem::path(document.file()).parent_path() / "link.ray").string();
+  try {
+    Document::write(document.saving(file));
+  } catch (const Error& error) {
+    studio.refuse(error.what());
+    return studio.show("Log");
+  }
+  std::string pixel;
+  if (studio.picture.pixel) {
+    const auto& shown = studio.picture.shown;
+    const auto [x, y] = studio.picture.pixel.in({shown.width, shown.height});
+    pixel = std::to_string(x) + "," + std::to_string(y);
+  }
+  host::copyLink(file, pixel);
+  studio.workspace.note("the link is copied");
+}
+
 constexpr std::array kActions{
     Action{"File", "New scene...", 'N', true, false, "write a first scene to a new file, and open it",
            newScene, always, nullptr},
     Action{"File", "Open scene...", 'O', true, false, "choose a scene file", openScene, always, nullptr},
+    Action{"File", "Open from this computer...", 0, false, false,
+           "choose files of your computer: a scene, what it needs, or a picture to compare with",
+           [](Studio&) { host::askForFiles(); }, always, nullptr, true},
+    Action{"File", "Copy link", 0, false, false,
+           "an address that holds the scene as it is now, and the chosen pixel", copyLink, hasScene, nullptr,
+           true},
     Action{"File", "Open reference...", 'R', true, true, "choose a picture to compare with", openReference,
            always, nullptr},
     Action{"File", "Close reference", 0, false, false, "compare no more",
@@ -247,7 +273,7 @@ void drawMenu(Studio& studio) {
     if (!open) landmark("menu " + std::string(menu));
     for (; i < kActions.size() && std::string_view(kActions[i].menu) == menu; ++i) {
       const Action& action = kActions[i];
-      if (!open) continue;
+      if (!open || (action.inPage && !host::isPage())) continue;
       const bool checked = action.checked && action.checked(studio);
       if (ImGui::MenuItem(action.name, keyText(action).c_str(), checked, action.enabled(studio)))
         action.run(studio);

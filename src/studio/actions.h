@@ -17,6 +17,7 @@ struct Action {
   void (*run)(Studio&);
   bool (*enabled)(const Studio&);
   bool (*checked)(const Studio&);  ///< null where it is no switch
+  bool inPage = false;             ///< only where the studio is a page in a browser
 };
 
 std::span<const Action> actions();

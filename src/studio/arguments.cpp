@@ -88,6 +88,8 @@ class Parser {
       choose(name, value);
     else if (name == "window")
       sizeWindow(value);
+    else if (name == "pixel")
+      choosePixel(value);
     else if (name == "allow-read")
       arguments_.allowRead.push_back(value);
     else
@@ -121,6 +123,13 @@ class Parser {
     Settings scratch;
     findOption(option).assign(scratch, value);
     arguments_.choices.push_back({std::string(option), value, {}});
+  }
+
+  void choosePixel(const std::string& value) {
+    int x = -1, y = -1;
+    if (std::sscanf(value.c_str(), "%d,%d", &x, &y) != 2 || x < 0 || y < 0)
+      throw Error(Fault::usage, "--pixel: expected X,Y from 0, found \"" + value + "\"");
+    arguments_.pixel = {x, y};
   }
 
   void sizeWindow(const std::string& value) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 
 #include "app/session/version.h"
 #include "base/error.h"
@@ -14,14 +15,18 @@
 #include "image/codecs/codec.h"
 #include "studio/actions.h"
 #include "studio/arguments.h"
+#include "studio/host.h"
 #include "studio/script.h"
+#include "studio/script_state.h"
 #include "studio/studio.h"
 #include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
 namespace {
 
-constexpr int kWidth = 1280, kHeight = 800;   // width and height of the window, at first, on a plain monitor
+constexpr int kWidth = 1280, kHeight = 800;  // width and height of the window, at first, on a plain monitor
+constexpr int kSmall =
+    320;  // of a page, until it says how large it is: no screen is so small, else it would be filled
 constexpr float kStage = 1.6f;                // how much larger everything is on the stage
 constexpr double kSoon = 0.004;               // seconds until the next step of a view that is made smooth
 constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at what continues in the background
@@ -53,8 +58,10 @@ bool update(Studio& studio, double longest) {
                                                   : isBusy(studio) || studio.rays.coarse ? kBusy
                                                                                          : kIdle));
   for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
+  for (const std::string& file : host::takeOpened()) openDropped(studio, file);
   const std::uint64_t failures = workspace.failures(), refusals = workspace.refusals();
   workspace.update();
+  for (const std::string& file : workspace.takeWritten()) host::handOver(file);
   if (workspace.failures() > failures) {
     studio.show("Log");
     studio.quit = false;
@@ -87,6 +94,7 @@ void frame(Studio& studio) {
 
 /// As asked, or as it was last; at first as suits the monitor.
 void sizeWindow(Studio& studio, const Arguments& arguments) {
+  if (host::isPage()) return;  // which has its size of its own accord
   const double width = studio.preferences.number("width", 0), height = studio.preferences.number("height", 0);
   const float scale = studio.window.contentScale();
   if (arguments.width > 0)
@@ -97,48 +105,94 @@ void sizeWindow(Studio& studio, const Arguments& arguments) {
     studio.window.setSize(static_cast<int>(kWidth * scale), static_cast<int>(kHeight * scale));
 }
 
-int run(const Arguments& arguments) {
+std::vector<std::string> allowedToRead(const Arguments& arguments) {
   std::vector<std::string> allowed = arguments.allowRead;
   for (const Choice& choice : arguments.choices)
     if (findOption(choice.option).kind == Option::Kind::file) allowed.push_back(choice.value);
-  const ReadScope reading(allowed);
-  std::optional<Script> script;
-  if (!arguments.script.empty()) script.emplace(arguments.script, resolve({arguments.choices}).timeLimit);
-  if (script) keepLandmarks();
-  const std::string folder = script ? "" : configFolder(variable);
-  const std::string ini = folder + "/imgui.ini";  // widths of columns; written when the window goes
-  Window window("Trace", kWidth, kHeight);
-  Studio studio(window);
-  std::error_code unknown;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
-  studio.start.folder = examplesFolder(program.generic_string());
-  studio.configFolder = folder;
-  ImGui::GetIO().IniFilename = folder.empty() ? nullptr : ini.c_str();
-  if (!folder.empty()) restore(studio);
-  sizeWindow(studio, arguments);
-  studio.workspace.commandLine = arguments.choices;
-  if (!arguments.scene.empty()) studio.workspace.open(arguments.scene);
-  if (!arguments.reference.empty()) studio.workspace.openReference(arguments.reference);
+  return allowed;
+}
 
-  std::string title;
-  while (!studio.quit || studio.workspace.saving()) {
-    const bool scripted = script && !script->waits();
-    if (update(studio, scripted ? 0 : script ? kBusy : kIdle) || scripted) frame(studio);
-    if (window.closing()) {
-      window.keepOpen();
-      studio.leave([&] { studio.quit = true; });
+/// The studio from its first frame to its last.
+class Program {
+ public:
+  explicit Program(const Arguments& arguments)
+      : reading_(allowedToRead(arguments)),
+        script_(arguments.script.empty()
+                    ? nullptr
+                    : std::make_unique<Script>(arguments.script, resolve({arguments.choices}).timeLimit)),
+        folder_(script_ ? "" : configFolder(variable)),
+        window_("Trace", host::isPage() ? kSmall : kWidth, host::isPage() ? kSmall : kHeight),
+        studio_(window_) {
+    if (script_) keepLandmarks();
+    host::answerWith([this] {
+      keepLandmarks();
+      return state(studio_);
+    });
+    studio_.start.folder = host::examples();
+    studio_.configFolder = folder_;
+    ImGui::GetIO().IniFilename = folder_.empty() ? nullptr : ini_.c_str();
+    if (!folder_.empty()) restore(studio_);
+    sizeWindow(studio_, arguments);
+    studio_.workspace.commandLine = arguments.choices;
+    if (!arguments.scene.empty()) studio_.workspace.open(arguments.scene);
+    pixel_ = arguments.pixel;
+    if (!arguments.reference.empty()) studio_.workspace.openReference(arguments.reference);
+  }
+
+  ~Program() {
+    remember(studio_);
+    window_.hide();  // what still runs has to be waited for
+  }
+
+  /// What happened, and a frame if there is news. False at the end.
+  bool step() {
+    if (studio_.quit && !studio_.workspace.saving()) return false;
+    const bool scripted = script_ && !script_->waits();
+    if (update(studio_, scripted ? 0 : script_ ? kBusy : kIdle) || scripted) frame(studio_);
+    clickPixel();
+    if (window_.closing()) {
+      window_.keepOpen();
+      studio_.leave([this] { studio_.quit = true; });
     }
-    if (script && !script->step(studio)) break;
-    const std::string& file = studio.workspace.document.file();
+    if (script_ && !script_->step(studio_)) return false;
+    nameWindow();
+    return true;
+  }
+
+ private:
+  /// As soon as there is a picture that has it.
+  void clickPixel() {
+    const auto& shown = studio_.picture.shown;
+    if (!pixel_ || shown.width == 0) return;
+    const auto [x, y] = *std::exchange(pixel_, {});
+    if (x < shown.width && y < shown.height)
+      studio_.picture.goTo(x, y);
+    else
+      studio_.workspace.note("--pixel: the picture has " + std::to_string(shown.width) + " x " +
+                             std::to_string(shown.height) + " pixels");
+  }
+
+  void nameWindow() {
+    const std::string& file = studio_.workspace.document.file();
     const std::string now =
         file.empty() ? "Trace" : std::filesystem::path(file).filename().generic_string() + " - Trace";
-    if (now != title) {
-      window.setTitle(title = now);
-      remember(studio);  // what was opened, should the window not come to its end
-    }
+    if (now == title_) return;
+    window_.setTitle(title_ = now);
+    remember(studio_);  // what was opened, should the window not come to its end
   }
-  remember(studio);
-  window.hide();  // what still runs has to be waited for
+
+  const ReadScope reading_;
+  std::unique_ptr<Script> script_;
+  const std::string folder_,
+      ini_ = folder_ + "/imgui.ini";  // widths of columns; written when the window goes
+  Window window_;
+  Studio studio_;
+  std::string title_;
+  std::optional<std::array<int, 2>> pixel_;  // that is still to be clicked
+};
+
+int run(const Arguments& arguments) {
+  host::eachFrame([program = std::make_shared<Program>(arguments)] { return program->step(); });
   return 0;
 }
 

@@ -1,8 +1,6 @@
 #include "studio/window.h"
 
-#define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/glext.h>
+#define GLFW_INCLUDE_NONE  // widgets/gl.h has it
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -16,6 +14,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "studio/host.h"
+#include "studio/widgets/gl.h"
 
 namespace trace::studio {
 
@@ -49,11 +49,9 @@ constexpr double kDoubleClick = 0.3;  // seconds between its clicks, at most
 constexpr double kLeastFrame = 1e-4;  // seconds: Dear ImGui's clock must not stand still
 
 [[noreturn]] void failToOpen(const std::string& what) {
-  const char* reason = nullptr;
-  glfwGetError(&reason);
-  const std::string because = reason ? std::string(": ") + reason : "";
+  const std::string reason = host::glfwReason();
   glfwTerminate();
-  throw Error(Fault::io, what + because,
+  throw Error(Fault::io, what + (reason.empty() ? "" : ": " + reason),
               "the studio needs a display and OpenGL 3.3; \"ray SCENE\" renders without either");
 }
 
@@ -82,7 +80,7 @@ Window::Window(const std::string& title, int width, int height) : state_(std::ma
   ImGui::CreateContext();
   ImGui_ImplGlfw_InitForOpenGL(state_->window, false);
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
-  ImGui_ImplOpenGL3_Init("#version 330 core");
+  ImGui_ImplOpenGL3_Init(kShaderVersion);
 }
 
 void Window::listen() {
@@ -117,9 +115,8 @@ void Window::listen() {
       window, [](GLFWwindow* w, unsigned c) { stateOf(w).add({.kind = Kind::character, .character = c}); });
   glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int held) {
     InputEvent event{.kind = Kind::key, .code = key, .writes = key};
-    const char* name = glfwGetKeyName(key, scancode);  // name of the user's keyboard
-    if (name && name[0] && !name[1])
-      event.writes = *name == '+' ? '=' : std::toupper(static_cast<unsigned char>(*name));
+    if (const char written = host::keyWrites(key, scancode))
+      event.writes = written == '+' ? '=' : std::toupper(static_cast<unsigned char>(written));
     event.down = action != GLFW_RELEASE;
     event.repeat = action == GLFW_REPEAT;
     event.modifier = key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER;
@@ -140,17 +137,14 @@ Window::~Window() {
 
 bool Window::wait(double mostSeconds) {
   State& state = *state_;
-  const double before = glfwGetTime();
-  state.slack = before - state.heard;
-  state.happened = false;
+  state.slack = glfwGetTime() - state.heard;
   if (state.framesDue > 0 || !state.queue.empty()) {
     glfwPollEvents();
   } else {
-    glfwWaitEventsTimeout(mostSeconds);
-    if (glfwGetTime() - before < mostSeconds) state.happened = true;
+    if (host::waitForEvents(mostSeconds)) state.happened = true;
   }
   state.heard = glfwGetTime();
-  if (state.happened) state.framesDue = kSettlingFrames;
+  if (std::exchange(state.happened, false)) state.framesDue = kSettlingFrames;
   return state.framesDue > 0 || !state.queue.empty();
 }
 
@@ -222,9 +216,8 @@ void Window::endFrame() {
 
 bool Window::quiet() {
   State& state = *state_;
-  state.happened = false;
   glfwPollEvents();
-  if (state.happened) state.framesDue = kSettlingFrames;
+  if (std::exchange(state.happened, false)) state.framesDue = kSettlingFrames;
   return state.queue.empty() && state.framesDue == 0;
 }
 double Window::rested() const { return glfwGetTime() - state_->touched; }
@@ -238,14 +231,7 @@ void Window::setSize(int width, int height) {
 }
 void Window::size(int& width, int& height) const { glfwGetWindowSize(state_->window, &width, &height); }
 
-float Window::contentScale() const {
-  float x = 1, y = 1;
-  glfwGetWindowContentScale(state_->window, &x, &y);
-  // X servers that say nothing of their monitor's density: by its height, in halves.
-  const GLFWvidmode* mode = glfwGetVideoMode(glfwGetPrimaryMonitor());
-  const float byHeight = mode ? std::floor(static_cast<float>(mode->height) / 1080 * 2) / 2 : 1;
-  return std::clamp(std::max({x, y, byHeight}), 1.0f, 4.0f);
-}
+float Window::contentScale() const { return host::contentScale(state_->window); }
 
 void Window::drop(const std::string& file) { state_->dropped.push_back(file); }
 void Window::feed(const InputEvent& event) { state_->add(event); }
@@ -254,17 +240,19 @@ std::vector<std::string> Window::takeDropped() { return std::exchange(state_->dr
 const std::vector<KeyPress>& Window::keys() const { return state_->keys; }
 
 Bytes Window::screenshot() const {
-  const int width = state_->width, height = state_->height;
-  const auto row = static_cast<std::size_t>(width) * 3;
-  Bytes bytes{width, height, std::vector<std::uint8_t>(row * static_cast<std::size_t>(height))};
+  const auto width = static_cast<std::size_t>(state_->width),
+             height = static_cast<std::size_t>(state_->height);
+  std::vector<std::uint8_t> pixels(width * height * 4);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   draw();  // once more: what the front buffer holds is up to the system
   glReadBuffer(GL_BACK);
-  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, bytes.rgb.data());
-  for (std::size_t y = 0; y < static_cast<std::size_t>(height) / 2; ++y)  // OpenGL's row 0 is at the bottom
-    std::swap_ranges(bytes.rgb.begin() + static_cast<std::ptrdiff_t>(y * row),
-                     bytes.rgb.begin() + static_cast<std::ptrdiff_t>((y + 1) * row),
-                     bytes.rgb.end() - static_cast<std::ptrdiff_t>((y + 1) * row));
+  glReadPixels(0, 0, state_->width, state_->height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  Bytes bytes{state_->width, state_->height, {}};
+  bytes.rgb.reserve(width * height * 3);
+  for (std::size_t y = height; y-- > 0;)  // OpenGL's row 0 is at the bottom
+    for (const std::uint8_t *pixel = &pixels[y * width * 4], *end = pixel + width * 4; pixel < end;
+         pixel += 4)
+      bytes.rgb.insert(bytes.rgb.end(), pixel, pixel + 3);
   return bytes;
 }
 

@@ -16,6 +16,7 @@ struct StudioFlag {
 
 inline constexpr std::array kStudioFlags{
     StudioFlag{"reference", 0, "PICTURE", "a picture to compare with"},
+    StudioFlag{"pixel", 0, "X,Y", "a pixel of the scene's picture to be clicked, counted from the top left"},
     StudioFlag{"window", 0, "WIDTHxHEIGHT", "size of the window; 1280x800 at first, then as it was left"},
     StudioFlag{"allow-read", 0, "DIR", "also let scenes read the files below this folder"},
     StudioFlag{"script", 0, "FILE", "do what the file says, one command a line, then close the window"},

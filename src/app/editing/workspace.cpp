@@ -353,8 +353,10 @@ void Workspace::takeSaved() {
       fail(outcome->errors);
       continue;
     }
-    for (const std::string& file : outcome->value->files)
+    for (const std::string& file : outcome->value->files) {
       note("wrote " + shown(file) + (outcome->value->anew ? " anew: it was no longer on the disk" : ""));
+      written_.push_back(file);
+    }
     if (!outcome->value->scene) continue;
     document.noteSaved(*outcome->value->scene);
     gone_ = false;

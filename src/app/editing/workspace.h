@@ -97,6 +97,8 @@ class Workspace {
     return opening_.pending() || rereading_.pending() || loading_.pending() || completing_.pending();
   }
   bool saving() const { return saving_.pending(); }
+  /// Files that were written since the last call.
+  std::vector<std::string> takeWritten() { return std::exchange(written_, {}); }
   /// All that may change without a person doing something. A window need not draw while it stays the same.
   struct Pulse {
     std::shared_ptr<const Scene> scene;
@@ -209,6 +211,7 @@ class Workspace {
   BackgroundTask<Reread> rereading_;
   BackgroundTask<Completed> completing_;
   BackgroundTask<Outcome<Reference>> loading_;
+  std::vector<std::string> written_;
   BackgroundTask<Outcome<Saved>> saving_{Jobs::all};
 };
 

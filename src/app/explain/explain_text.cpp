@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 
 #include "app/explain/light_shares.h"
 #include "app/explain/path_ways.h"
+#include "base/bits.h"
 #include "base/printable.h"
 #include "base/text.h"
 #include "scene/integrators.h"
@@ -35,7 +35,7 @@ std::string exact(const Color& c) { return toText(c.r) + " " + toText(c.g) + " "
 
 bool sameBits(const Color& a, const Color& b) {
   const auto same = [](double x, double y) {
-    const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+    const auto bits = [](double value) { return bitCast<std::uint64_t>(value); };
     return bits(x) == bits(y) || (std::isnan(x) && std::isnan(y));
   };
   return same(a.r, b.r) && same(a.g, b.g) && same(a.b, b.b);

@@ -1,6 +1,7 @@
 #include "app/view/way_pyramid.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -40,15 +41,22 @@ bool samePictures(const PyramidPlan& a, const PyramidPlan& b) {
 class CancelWatch {
  public:
   CancelWatch(Job& job, const Cancelled& cancelled)
-      : thread_([&job, cancelled](const std::stop_token& stop) {
-          while (cancelled && !stop.stop_requested() && !job.cancel) {
+      : thread_([this, &job, cancelled] {
+          while (cancelled && !over_ && !job.cancel) {
             if (cancelled()) job.cancel = true;
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
           }
         }) {}
+  ~CancelWatch() {
+    over_ = true;
+    thread_.join();
+  }
+  CancelWatch(const CancelWatch&) = delete;
+  CancelWatch& operator=(const CancelWatch&) = delete;
 
  private:
-  std::jthread thread_;
+  std::atomic<bool> over_{false};
+  std::thread thread_;
 };
 
 /// The contribution of these paths: all, if they have -1 vertices from both ends.

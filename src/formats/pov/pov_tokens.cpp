@@ -1,11 +1,11 @@
 #include "formats/pov/pov_tokens.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
 #include "base/budget.h"
+#include "base/text.h"
 
 namespace trace::pov {
 namespace {
@@ -67,10 +67,10 @@ void Source::split() {
           {Token::Kind::string, s.substr(at + 1, end - at - 1), 0, static_cast<std::uint32_t>(at), this});
       at = end + 1;
     } else if (isDigit(c) || (c == '.' && at + 1 < s.size() && isDigit(s[at + 1]))) {
-      double number = 0;
-      const auto [end, error] = std::from_chars(s.data() + at, s.data() + s.size(), number);
-      auto to = static_cast<std::size_t>(end - s.data());
-      if (error != std::errc{} || !std::isfinite(number))
+      const std::optional<ParsedNumber> parsed = parseNumber(std::string_view(s).substr(at));
+      const double number = parsed ? parsed->value : HUGE_VAL;
+      const std::size_t to = at + (parsed ? parsed->length : 0);
+      if (!std::isfinite(number))
         fail(at, "a number that is too large", "numbers go up to 1e308");
       add(Token::Kind::number, at, to, number);
       at = to;

@@ -1,9 +1,5 @@
 #include "studio/space/scene_drawer.h"
 
-#define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/glext.h>
-
 #include <array>
 #include <cstddef>
 #include <string>
@@ -11,6 +7,7 @@
 
 #include "studio/space/see_through.h"
 #include "studio/space/shader.h"
+#include "studio/widgets/gl.h"
 
 namespace trace::studio {
 namespace {
@@ -25,8 +22,7 @@ constexpr std::array<std::array<double, 2>, 8> kPlaces{{{0.5625, 0.4375},
                                                         {0.4375, 0.0625},
                                                         {0.6875, 0.5625}}};
 
-constexpr const char* kSurfaceVertex = R"(#version 330 core
-layout(location = 0) in vec3 position;
+constexpr const char* kSurfaceVertex = R"(layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 uniform mat4 matrix;
 out vec3 place, facing;
@@ -37,7 +33,7 @@ void main() {
 })";
 
 // Lit from the eye and a little from above, on both sides.
-const std::string kSurfaceFragment = std::string("#version 330 core") + SeeThrough::kDeclarations + R"(
+const std::string kSurfaceFragment = std::string() + SeeThrough::kDeclarations + R"(
 in vec3 place, facing;
 uniform vec3 eye, inside;
 uniform bool wall;
@@ -45,25 +41,24 @@ uniform vec4 colour;
 out vec4 result;
 void main() {
   vec3 across = cross(dFdx(place), dFdy(place));  // as app/view/room.h has it
-  if (wall && dot(across, eye - place) * dot(across, inside - place) < 0) discard;
+  if (wall && dot(across, eye - place) * dot(across, inside - place) < 0.0) discard;
   peel();
   vec3 n = normalize(facing), v = normalize(eye - place);
-  if (dot(n, v) < 0) n = -n;
+  if (dot(n, v) < 0.0) n = -n;
   float light = 0.3 + 0.6 * dot(n, v) + 0.1 * n.y;
-  float edge = pow(1 - dot(n, v), 3);
-  result = vec4(colour.rgb * light, mix(colour.a, 1, colour.a < 1 ? 0.5 * edge : 0));
+  float edge = pow(1.0 - dot(n, v), 3.0);
+  result = vec4(colour.rgb * light, mix(colour.a, 1.0, colour.a < 1.0 ? 0.5 * edge : 0.0));
 })";
 
 // A line is a quad that faces the eye: both ends come with every corner.
-constexpr const char* kLineVertex = R"(#version 330 core
-layout(location = 0) in vec3 start;
+constexpr const char* kLineVertex = R"(layout(location = 0) in vec3 start;
 layout(location = 1) in vec3 finish;
 layout(location = 2) in vec4 tint;
 layout(location = 3) in vec4 shape;  // which end, which side, width, dash
 uniform mat4 matrix;
 uniform vec2 size;
 out vec4 colour;
-noperspective out float along;
+out vec2 along;  // in pixels, and 1, both times w: divided they are linear on the screen
 flat out float dash;
 void main() {
   vec4 a = matrix * vec4(start, 1), b = matrix * vec4(finish, 1);
@@ -73,28 +68,26 @@ void main() {
   vec2 p = a.xy / a.w * size * 0.5, q = b.xy / b.w * size * 0.5;
   vec2 way = q - p;
   float far = length(way);
-  vec2 side = far > 0 ? vec2(-way.y, way.x) / far : vec2(1, 0);
+  vec2 side = far > 0.0 ? vec2(-way.y, way.x) / far : vec2(1, 0);
   vec4 here = shape.x < 0.5 ? a : b;
   here.xy += side * shape.y * shape.z / size * here.w;
   colour = tint;
-  along = shape.x < 0.5 ? 0 : far;
+  along = vec2(shape.x < 0.5 ? 0.0 : far, 1) * here.w;
   dash = shape.w;
   gl_Position = here;
 })";
 
-constexpr const char* kLineFragment = R"(#version 330 core
-in vec4 colour;
-noperspective in float along;
+constexpr const char* kLineFragment = R"(in vec4 colour;
+in vec2 along;
 flat in float dash;
 uniform float opacity;
 out vec4 result;
 void main() {
-  if (dash > 0 && mod(along, 2 * dash) > dash) discard;
+  if (dash > 0.0 && mod(along.x / along.y, 2.0 * dash) > dash) discard;
   result = vec4(colour.rgb, colour.a * opacity);
 })";
 
-constexpr const char* kPictureVertex = R"(#version 330 core
-layout(location = 0) in vec3 position;
+constexpr const char* kPictureVertex = R"(layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv;
 uniform mat4 matrix;
 out vec2 at;
@@ -103,19 +96,17 @@ void main() {
   gl_Position = matrix * vec4(position, 1);
 })";
 
-constexpr const char* kPictureFragment = R"(#version 330 core
-in vec2 at;
+constexpr const char* kPictureFragment = R"(in vec2 at;
 uniform sampler2D picture;
 uniform float opacity;
 out vec4 result;
 void main() { result = vec4(texture(picture, at).rgb, opacity); })";
 
 /// One triangle over everything.
-constexpr const char* kCopyVertex = R"(#version 330 core
-void main() { gl_Position = vec4(gl_VertexID == 1 ? 3 : -1, gl_VertexID == 2 ? 3 : -1, 0, 1); })";
+constexpr const char* kCopyVertex =
+    R"(void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0, 1); })";
 
-constexpr const char* kCopyFragment = R"(#version 330 core
-uniform sampler2D picture;
+constexpr const char* kCopyFragment = R"(uniform sampler2D picture;
 out vec4 result;
 void main() { result = vec4(texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb, 1); })";
 
@@ -141,7 +132,7 @@ struct PictureCorner {
 struct SceneDrawer::State {
   unsigned surface = 0, line = 0, pictures = 0, copy = 0;  // programs
   unsigned surfaceArray = 0, lineArray = 0, pictureArray = 0, nothing = 0;
-  unsigned surfaceBuffer = 0, lineBuffer = 0, pictureBuffer = 0;
+  unsigned surfaceBuffer = 0, edgeBuffer = 0, lineBuffer = 0, pictureBuffer = 0;
   unsigned plain = 0, texture = 0, depth = 0;  // drawn into, one sample a pixel
   unsigned smooth = 0, mean = 0;               // the mean of several
   int width = 0, height = 0;
@@ -163,7 +154,7 @@ struct SceneDrawer::State {
       glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     };
     make(texture, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
-    make(mean, GL_RGBA16, GL_RGBA, GL_UNSIGNED_SHORT);
+    make(mean, kFineFormat, GL_RGBA, kFineType);
     make(depth, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT);
     glBindFramebuffer(GL_FRAMEBUFFER, plain);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
@@ -179,6 +170,9 @@ struct SceneDrawer::State {
   void copyOver(unsigned frame, unsigned picture) const;
   static void leave();
   void surfaces(const std::vector<DrawSurface>& parts);
+  void wires(const std::vector<DrawSurface>& parts);
+  void draw(const std::vector<DrawSurface>& parts, bool asWires);
+  void edges(const DrawSurface& part) const;
   void picture(const DrawPicture& picture);
   void lines(const std::vector<DrawLine>& lines, float hidden);
 
@@ -196,7 +190,8 @@ SceneDrawer::SceneDrawer() : state_(std::make_unique<State>()) {
   s.copy = linkProgram(kCopyVertex, kCopyFragment);
   for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray, &s.nothing})
     glGenVertexArrays(1, array);
-  for (unsigned* buffer : {&s.surfaceBuffer, &s.lineBuffer, &s.pictureBuffer}) glGenBuffers(1, buffer);
+  for (unsigned* buffer : {&s.surfaceBuffer, &s.edgeBuffer, &s.lineBuffer, &s.pictureBuffer})
+    glGenBuffers(1, buffer);
   for (unsigned* frame : {&s.smooth, &s.plain}) glGenFramebuffers(1, frame);
   for (unsigned* picture : {&s.texture, &s.mean, &s.depth}) glGenTextures(1, picture);
 
@@ -222,7 +217,8 @@ SceneDrawer::~SceneDrawer() {
   for (unsigned program : {s.surface, s.line, s.pictures, s.copy}) glDeleteProgram(program);
   for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray, &s.nothing})
     glDeleteVertexArrays(1, array);
-  for (unsigned* buffer : {&s.surfaceBuffer, &s.lineBuffer, &s.pictureBuffer}) glDeleteBuffers(1, buffer);
+  for (unsigned* buffer : {&s.surfaceBuffer, &s.edgeBuffer, &s.lineBuffer, &s.pictureBuffer})
+    glDeleteBuffers(1, buffer);
   for (unsigned* frame : {&s.smooth, &s.plain}) glDeleteFramebuffers(1, frame);
   for (unsigned* picture : {&s.texture, &s.mean, &s.depth}) glDeleteTextures(1, picture);
 }
@@ -281,9 +277,7 @@ void SceneDrawer::State::begin(const SpaceDrawing& d, double x, double y) {
 /// Draws lines over surfaces.
 void SceneDrawer::State::overlay(const SpaceDrawing& d) {
   glDepthMask(GL_FALSE);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-  surfaces(d.wires);
-  glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+  wires(d.wires);
   lines(d.lines, d.hidden);
   glDepthMask(GL_TRUE);
 }
@@ -336,7 +330,7 @@ void SceneDrawer::State::leave() {
   glDisable(GL_DEPTH_TEST);
 }
 
-void SceneDrawer::State::surfaces(const std::vector<DrawSurface>& parts) {
+void SceneDrawer::State::draw(const std::vector<DrawSurface>& parts, bool asWires) {
   if (parts.empty()) return;
   use(surface);
   seeThrough.useIn(surface);
@@ -352,8 +346,26 @@ void SceneDrawer::State::surfaces(const std::vector<DrawSurface>& parts) {
     glUniform4f(colour, static_cast<float>(part.colour.r), static_cast<float>(part.colour.g),
                 static_cast<float>(part.colour.b), part.opacity);
     glUniform1i(wall, part.wall);
-    glDrawArrays(GL_TRIANGLES, static_cast<int>(part.first), static_cast<int>(part.count));
+    if (asWires)
+      edges(part);
+    else
+      glDrawArrays(GL_TRIANGLES, static_cast<int>(part.first), static_cast<int>(part.count));
   }
+}
+
+void SceneDrawer::State::surfaces(const std::vector<DrawSurface>& parts) { draw(parts, false); }
+void SceneDrawer::State::wires(const std::vector<DrawSurface>& parts) { draw(parts, true); }
+
+/// The edges of triangles as lines: ES cannot draw triangles so.
+void SceneDrawer::State::edges(const DrawSurface& part) const {
+  std::vector<unsigned> ends;
+  ends.reserve(part.count * 2);
+  for (auto corner = static_cast<unsigned>(part.first); corner < part.first + part.count; corner += 3)
+    ends.insert(ends.end(), {corner, corner + 1, corner + 1, corner + 2, corner + 2, corner});
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edgeBuffer);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(ends.size() * sizeof(unsigned)),
+               ends.data(), GL_STREAM_DRAW);
+  glDrawElements(GL_LINES, static_cast<int>(ends.size()), GL_UNSIGNED_INT, nullptr);
 }
 
 void SceneDrawer::State::lines(const std::vector<DrawLine>& all, float hidden) {

@@ -1,19 +1,17 @@
 #include "studio/space/shader.h"
 
-#define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/glext.h>
-
 #include <string>
 
 #include "base/error.h"
+#include "studio/widgets/gl.h"
 
 namespace trace::studio {
 namespace {
 
 unsigned compileShader(unsigned kind, const char* text) {
   const unsigned shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &text, nullptr);
+  const char* parts[] = {kShaderHead, text};
+  glShaderSource(shader, 2, parts, nullptr);
   glCompileShader(shader);
   int good = 0;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &good);

@@ -1,10 +1,7 @@
 #include "studio/widgets/texture.h"
 
-#define GL_GLEXT_PROTOTYPES
-#include <GL/gl.h>
-#include <GL/glext.h>
-
 #include "app/view/picture_views.h"
+#include "studio/widgets/gl.h"
 
 namespace trace::studio {
 

@@ -41,7 +41,7 @@ std::size_t inPages(std::size_t bytes) { return (bytes + kLargePage - 1) / kLarg
 }  // namespace
 
 std::uint64_t machineMemory() {
-#if defined(_SC_PHYS_PAGES)
+#if defined(_SC_PHYS_PAGES) && !defined(__EMSCRIPTEN__)
   std::uint64_t bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
   std::uint64_t limit = 0;

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include "base/bits.h"
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/nesting.h"
@@ -211,7 +211,7 @@ class BinaryReader {
     text_ += ' ';
   }
   void putFloats(std::size_t n) {
-    for (; n > 0; --n) putNumber(std::bit_cast<float>(number()));
+    for (; n > 0; --n) putNumber(bitCast<float>(number()));
   }
 
   void node() {
@@ -304,7 +304,7 @@ class BinaryReader {
       for (std::string bit = string(); !bit.empty(); bit = string()) put(word(bit));
       put(")");
     } else if (type == "Time") {
-      putNumber(std::bit_cast<double>(whole(8)));
+      putNumber(bitCast<double>(whole(8)));
     } else if (type == "Image") {
       image();
     } else if (type == "Node" || type == "Engine") {

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <array>
-#include <compare>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "formats/ray/syntax/findings.h"
@@ -26,7 +26,10 @@ struct MeshOperations {
   bool catmullClark = false;  ///< polygons into quadrangles; else triangles into triangles
   std::optional<UvProjection> uv;
 
-  auto operator<=>(const MeshOperations&) const = default;
+  bool operator==(const MeshOperations&) const = default;
+  bool operator<(const MeshOperations& b) const {
+    return std::tie(crease, subdivide, catmullClark, uv) < std::tie(b.crease, b.subdivide, b.catmullClark, b.uv);
+  }
   bool none() const { return crease < 0 && subdivide == 0 && !uv; }
 
   /// Takes the field if it is one of these. Reports what is wrong with its value.
