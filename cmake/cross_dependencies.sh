@@ -55,7 +55,7 @@ library() {  # PACKAGE CMAKE-OPTION...
   touch "$prefix/built/$package"
 }
 
-headers() {  # of Debian's packages that are nothing but headers
+headers() {  # those of Debian's packages that have nothing to compile
   local name
   for name in "$@"; do ln -sfn "/usr/include/$name" "$prefix/include/$name"; done
   mkdir -p "$prefix/share/cmake"

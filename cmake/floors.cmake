@@ -4,7 +4,7 @@ if(WIN32)
 else()
   set(otherSystem windows)
 endif()
-# And one of the files that end with what the studio runs on.
+# One of the studio's hosts is compiled: src/studio/host_*.cpp.
 if(EMSCRIPTEN)
   set(otherHost desktop)
 else()

@@ -1,4 +1,4 @@
-// What <bit> has and not all libraries of our compilers do.
+// Functions of <bit> that some standard libraries lack, Emscripten's among them.
 #pragma once
 
 #include <cstdint>

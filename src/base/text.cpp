@@ -82,7 +82,7 @@ std::optional<ParsedNumber> parseNumber(std::string_view text) {
     value = std::strtod(std::string(digits, 0, length).c_str(), nullptr);
   return ParsedNumber{value, length + plus};
 #else  // libraries without floating from_chars (the web build); the "C" locale is never changed
-  const std::size_t hexadecimal = digits.find_first_of("xX");  // of which only the 0 before is a number here
+  const std::size_t hexadecimal = digits.find_first_of("xX");  // only the 0 before it is a number here
   const std::string copy(digits.substr(0, std::min<std::size_t>(400, hexadecimal)));
   if (copy.empty() || std::isspace(static_cast<unsigned char>(copy[0]))) return {};
   char* end = nullptr;

@@ -1,4 +1,4 @@
-// What the studio asks of the system that it runs on: the desktop (host_desktop.cpp) or a page in a browser
+// The system that the studio runs on: the desktop (host_desktop.cpp) or a page in a browser
 // (host_web.cpp).
 #pragma once
 

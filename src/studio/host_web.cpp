@@ -13,7 +13,7 @@ std::function<bool()> step;  // which the page calls for each of its frames
 std::vector<std::string> opened;
 std::function<std::string()> answer;
 
-void frame() {
+void callStep() {
   if (step()) return;
   emscripten_cancel_main_loop();
   step = nullptr;
@@ -22,7 +22,7 @@ void frame() {
 }  // namespace
 
 extern "C" {
-// What the page tells the studio (web/page.js).
+// Called by the page (web/page.js).
 EMSCRIPTEN_KEEPALIVE void traceOpened(const char* file) { opened.emplace_back(file); }
 EMSCRIPTEN_KEEPALIVE const char* traceState() {
   static std::string text;
@@ -33,7 +33,7 @@ EMSCRIPTEN_KEEPALIVE const char* traceState() {
 
 void eachFrame(std::function<bool()> each) {
   step = std::move(each);
-  emscripten_set_main_loop(frame, 0, false);
+  emscripten_set_main_loop(callStep, 0, false);
 }
 
 bool waitForEvents(double) { return false; }

@@ -25,8 +25,8 @@ namespace trace::studio {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 800;  // width and height of the window, at first, on a plain monitor
-constexpr int kSmall =
-    320;  // of a page, until it says how large it is: no screen is so small, else it would be filled
+// A page begins smaller than any screen: Emscripten would fill one of exactly that size.
+constexpr int kSmall = 320;
 constexpr float kStage = 1.6f;                // how much larger everything is on the stage
 constexpr double kSoon = 0.004;               // seconds until the next step of a view that is made smooth
 constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at what continues in the background
@@ -144,7 +144,7 @@ class Program {
     window_.hide();  // what still runs has to be waited for
   }
 
-  /// What happened, and a frame if there is news. False at the end.
+  /// Takes in events, and draws a frame if there is news. False at the end.
   bool step() {
     if (studio_.quit && !studio_.workspace.saving()) return false;
     const bool scripted = script_ && !script_->waits();

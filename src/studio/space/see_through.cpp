@@ -8,7 +8,7 @@
 namespace trace::studio {
 namespace {
 
-// What lies behind so many is not seen. Where a layer cannot tell that it is empty, all are drawn.
+// Surfaces behind so many are not seen. Where a layer cannot tell that it is empty, all are drawn.
 constexpr int kMostLayers = kQueriesAnswer ? 16 : 6;
 constexpr int kSolidUnit = 1, kBeforeUnit = 2;  // units of textures
 
