@@ -71,7 +71,7 @@ extern "C" std::size_t __wrap_mbrtowc(wchar_t* to, const char* from, std::size_t
   }
   if (byte(0) < 0x80) return give(byte(0), 1);
   if (byte(0) < 0xc2 || byte(0) > 0xf4) return wrong();
-  const std::size_t length = byte(0) < 0xe0 ? 2 : 3;  // a character of four bytes takes its first three for now
+  const std::size_t length = byte(0) < 0xe0 ? 2 : 3;  // three for now if it has four bytes
   if (count < length) return kMore;
   unsigned bits = byte(0) & (byte(0) < 0xe0 ? 0x1f : byte(0) < 0xf0 ? 0x0f : 0x07);
   for (std::size_t i = 1; i < length; ++i) {
