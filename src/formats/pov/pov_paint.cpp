@@ -438,8 +438,8 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
     const FinishNode& f = layer.finish ? *layer.finish : kUsual;
     tell(f.left);
     if (layer.normal) tell(layer.normal->left);
-    // The mean reflectance of a surface of that brilliance.
-    const Real strength = f.diffuse * 2 / (1 + std::max(f.brilliance, 0.0));
+    // Closest to cos^brilliance, in the mean of squares, on a ball that is lit from the viewer's side.
+    const Real strength = f.diffuse * 4 / (3 + std::max(f.brilliance, 0.0));
     l.diffuse = paint(
         p, [&](const Numbers& c) { return notBelowZero(rgb(c) * (shown(c) * strength)); }, uv);
     l.ambient = paint(
