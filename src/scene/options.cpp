@@ -1336,6 +1336,8 @@ const Option& findOption(std::string_view name) {
   names.reserve(kOptions.size());
   for (const Option& option : kOptions) names.push_back(option.name);
   if (hint.empty()) hint = didYouMean(name, names);
+  if (hint.empty() && (name.starts_with("sun") || name.starts_with("sky")))
+    hint = "background { turbidity = 3; sun = (-1, 0.6, -0.55) } is a daylight sky";
   throw Error(Fault::usage, "unknown option \"" + std::string(name) + "\"", std::move(hint));
 }
 

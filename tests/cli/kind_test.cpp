@@ -67,6 +67,7 @@ TEST(KindErrors, HintsAreWhatCouldBeMeant) {
       {"rotate (0, 1, 0) 30 { sphere { } }", "rotate y 30 { sphere { } }"},
       {"rotate (0, 1, 0) 30 { sphere { } }", "expected rotate(x, y, z, degrees, object)"},
       {"sphere { material = { texture = \"a.png\" } }", "diffuse = map(\"a.png\")"},
+      {"settings { sun_elevation = 35 } sphere { }", "background { turbidity = 3;"},
       {"torus { radius = 0.6 }", "did you mean \"major_radius\" or \"minor_radius\"?"},
   };
   for (const auto& [text, expected] : rows)

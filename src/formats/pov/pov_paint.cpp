@@ -407,6 +407,25 @@ Real reliefOf(const std::string& kind) {
 
 }  // namespace
 
+Painter::Look Painter::averageOf(const Entries<TextureNode>& entries, const std::vector<Look>& looks) {
+  Real total = 0;
+  for (const auto& [weight, one] : entries) total += std::max(weight, 0.0);
+  if (!(total > 0)) return looks.back();
+  Look all = looks.front();
+  for (Paint Look::*field : {&Look::diffuse, &Look::ambient, &Look::emissive, &Look::specular,
+                             &Look::reflective, &Look::transmissive}) {
+    Paint sum;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+      Paint part = looks[i].*field;
+      part.scale = part.scale * (std::max(entries[i].first, 0.0) / total);
+      if (!part.none()) sum = sum.none() ? part : added(sum, part);
+    }
+    all.*field = sum;
+  }
+  for (const Look& look : looks) all.clear = all.clear && look.clear;
+  return all;
+}
+
 Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
   Look l;
   if (!layer.entries.empty() && layer.pattern) {
@@ -416,7 +435,9 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
     std::vector<Look> looks;
     for (const auto& [at, one] : entries) looks.push_back(look(*one, uv));
     l = looks.front();
-    if (pattern.kind == "average" || !knows(pattern, place)) {
+    if (pattern.kind == "average") {
+      l = averageOf(entries, looks);
+    } else if (!knows(pattern, place)) {
       l = looks.back();
     } else {
       const Texture number = numberOf(pattern, place, uv);

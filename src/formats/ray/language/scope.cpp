@@ -103,10 +103,10 @@ void Names::include(std::uint32_t statement, Scope& scope) {
 Names::Found Names::find(std::string_view name, const Scoped& from) const {
   if (name.empty()) return {};
   const Scope* skipped = nullptr;
-  for (Scoped scope = from; scope; scope = scope->parent) {
-    if (scope->hides == name) skipped = scope->parent.get();
-    for (Binding& binding : scope->bindings)
-      if (binding.name == name && !binding.isActive && scope.get() != skipped) return {&binding, scope};
+  for (const Scoped* scope = &from; *scope; scope = &(*scope)->parent) {
+    if ((*scope)->hides == name) skipped = (*scope)->parent.get();
+    for (Binding& binding : (*scope)->bindings)
+      if (binding.name == name && !binding.isActive && scope->get() != skipped) return {&binding, *scope};
   }
   return {};
 }
