@@ -79,7 +79,9 @@ def by_trace(args, scene, picture):
 
 
 def by_povray(args, scene, picture, width, height):
-    command = ["povray", f"+I{scene}", f"+O{picture}", f"+W{width}", f"+H{height}", "-D", "+A0.3", "-GA",
+    # Nine samples for every pixel, and the mean of their light, as Trace has it.
+    command = ["povray", f"+I{scene}", f"+O{picture}", f"+W{width}", f"+H{height}", "-D", "+A0.0", "+R3",
+               "-J", "+AG1.0", "-GA",
                "+WT1", f"+L{os.path.dirname(scene)}"]
     try:
         subprocess.run(command, capture_output=True, timeout=args.limit * 2, cwd=os.path.dirname(scene))

@@ -92,9 +92,31 @@ std::optional<ParsedNumber> parseNumber(std::string_view text) {
 #endif
 }
 
-std::string toText(double number) {
+namespace {
+
+/// The least number of digits that the number may need.
+int fewestDigits(double number) {
+#if defined(__cpp_lib_to_chars)
   char buffer[40];
-  for (int digits = 1; digits <= 17; ++digits) {
+  const char* end = std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::scientific).ptr;
+  const auto digits =
+      std::count_if(static_cast<const char*>(buffer), std::find(static_cast<const char*>(buffer), end, 'e'),
+                    [](char c) { return c >= '0' && c <= '9'; });
+  return std::max(1, static_cast<int>(digits));
+#else
+  static_cast<void>(number);
+  return 1;
+#endif
+}
+
+}  // namespace
+
+std::string toText(double number) {
+  constexpr double kWhole = 1e15;
+  if (std::abs(number) < kWhole && number == std::floor(number) && number != 0)
+    return std::to_string(static_cast<long long>(number));
+  char buffer[40];
+  for (int digits = fewestDigits(number); digits <= 17; ++digits) {
     std::snprintf(buffer, sizeof buffer, "%.*g", digits, number);
     if (std::strtod(buffer, nullptr) == number) break;
   }

@@ -987,9 +987,11 @@ const std::array kOptions{
                                 .integrators = lit()}),
     row<&Settings::fogSamples>({.name = "fog-samples",
                                 .group = "Fog",
-                                .help = "points on every ray that sample the lights, in fog and media",
+                                .help =
+                                    "points on every ray that sample the lights, in fog and media; 0: fog "
+                                    "has its own colour, and lights shine through it undimmed",
                                 .source = "",
-                                .least = 1,
+                                .least = 0,
                                 .most = 10000,
                                 .unit = "points",
                                 .integrators = kWhitted}),
@@ -1334,12 +1336,28 @@ const Option& findOption(std::string_view name) {
   names.reserve(kOptions.size());
   for (const Option& option : kOptions) names.push_back(option.name);
   if (hint.empty()) hint = didYouMean(name, names);
+  if (hint.empty() && (name.starts_with("sun") || name.starts_with("sky")))
+    hint = "background { turbidity = 3; sun = (-1, 0.6, -0.55) } is a daylight sky";
   throw Error(Fault::usage, "unknown option \"" + std::string(name) + "\"", std::move(hint));
 }
 
-Settings resolve(std::initializer_list<std::span<const Choice>> layers) {
+namespace {
+
+using Layers = std::initializer_list<std::span<const Choice>>;
+
+/// A later layer says `quality = none`: what the quality of this one stands for is as if nobody gave it.
+bool isQualityUndone(const std::span<const Choice>& layer, const Layers& layers) {
+  return std::any_of(&layer + 1, layers.end(), [](std::span<const Choice> later) {
+    return std::any_of(later.begin(), later.end(),
+                       [](const Choice& c) { return c.option == "quality" && c.value == kNone; });
+  });
+}
+
+}  // namespace
+
+Settings resolve(Layers layers) {
   Settings settings;
-  for (std::span<const Choice> layer : layers) {
+  for (const std::span<const Choice>& layer : layers) {
     for (const Choice& choice : layer) {
       if (choice.option != "like") continue;
       apply(settings, choice);
@@ -1350,7 +1368,8 @@ Settings resolve(std::initializer_list<std::span<const Choice>> layers) {
     for (const Choice& choice : layer)
       if (choice.option == "quality") {
         apply(settings, choice);
-        for (const Choice& own : choicesOf(settings.quality)) apply(settings, own);
+        if (!isQualityUndone(layer, layers))
+          for (const Choice& own : choicesOf(settings.quality)) apply(settings, own);
       }
     for (const Choice& choice : layer)
       if (choice.option != "like" && choice.option != "quality") apply(settings, choice);
@@ -1362,12 +1381,13 @@ std::string chooserOf(const Option& option, std::initializer_list<std::span<cons
                       std::string (*place)(const Place&)) {
   std::string chooser = "default";
   std::size_t number = 0;
-  for (std::span<const Choice> layer : layers) {
+  for (const std::span<const Choice>& layer : layers) {
     for (const std::string_view by : {"like", "quality", ""})
       for (const Choice& choice : layer) {
         if (choice.option != (by.empty() ? option.name : by)) continue;
         if (by == "like" && !isConvention(option)) continue;
-        if (by == "quality" && !setsOption(choice.value, option.name)) continue;
+        if (by == "quality" && (isQualityUndone(layer, layers) || !setsOption(choice.value, option.name)))
+          continue;
         const std::string names[] = {place(choice.place), "command line", "studio"};
         chooser = names[number];
         if (chooser.empty()) chooser = "scene file";  // the choice follows from the dialect, at no one place

@@ -74,6 +74,27 @@ bool isChosen(std::string_view option, std::initializer_list<std::span<const Cho
   return chosen;
 }
 
+/// A ray hits nothing.
+bool isEmpty(const Scene& scene) {
+  return scene.objects.empty() && scene.uses.empty() &&
+         std::none_of(scene.lights.begin(), scene.lights.end(),
+                      [](const LightSource& source) { return source.light.visible(); });
+}
+
+/// Drops the options of a quality that nobody asked for and that would change nothing.
+void dropIdle(Settings& settings, std::initializer_list<std::span<const Choice>> layers) {
+  constexpr int kFewest = 8;  // samples of a pixel, of which denoising compares two halves
+  const Settings usual;
+  const bool chains = hasTrait(settings, Trait::byChains);
+  const auto isFree = [&](std::string_view option) { return !isChosen(option, layers); };
+  // How exact a light image is is not known, so that nothing can be denoised by it.
+  if ((hasLightImage(settings) || chains || settings.spp < kFewest) && isFree("denoise"))
+    settings.denoise = usual.denoise;
+  if ((chains || settings.spp == 1) && isFree("noise-target")) settings.noiseTarget = usual.noiseTarget;
+  const bool limits = findOption("firefly-limit").concerns(settings) && !changesPaths(settings);
+  if (!limits && isFree("firefly-limit")) settings.fireflyLimit = usual.fireflyLimit;
+}
+
 }  // namespace
 
 std::span<const Choice> choicesOf(Quality quality) {
@@ -107,10 +128,10 @@ IntegratorKind integratorFor(const Scene& scene, const Settings& settings) {
 
 Settings settingsFor(const Scene& scene, std::initializer_list<std::span<const Choice>> layers) {
   Settings settings = settingsFor(scene.camera, layers);
-  if (settings.quality == Quality::none || isChosen("integrator", layers)) return settings;
-  settings.integrator = integratorFor(scene, settings);
-  // How exact a light image is is not known, so that nothing can be denoised by it.
-  if (hasLightImage(settings) && !isChosen("denoise", layers)) settings.denoise = false;
+  if (settings.quality == Quality::none) return settings;
+  if (!isChosen("integrator", layers)) settings.integrator = integratorFor(scene, settings);
+  if (isEmpty(scene) && !isChosen("spp", layers)) settings.spp = 1;  // every sample shows the same
+  dropIdle(settings, layers);
   return settings;
 }
 

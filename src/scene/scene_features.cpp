@@ -16,13 +16,15 @@
 namespace trace {
 namespace {
 
-constexpr std::string_view kMedium = "medium", kBump = "bump", kDisplacement = "displacement";
+constexpr std::string_view kMedium = "medium", kBump = "bump", kDisplacement = "displacement",
+                           kCastsShadow = "casts_shadow";
 
 constexpr SceneFeatureRow kParts[] = {
     {kMedium, "nothing is inside of objects", "mist.ray"},
     {kBump, "surfaces are smooth", "bumps.ray"},
     {kDisplacement, "meshes keep their points", "displacement.ray"},
     {kOpacity, "surfaces have no holes", "holes.ray"},
+    {kCastsShadow, "everything casts a shadow", "shadowless.ray"},
     {"spot_light", "a point light", "caustics.ray"},
     {"warn_light", "a point light", "studio-lights.ray"},
     {"goniometric_light", "a point light", "studio-lights.ray"},
@@ -97,7 +99,12 @@ Material withoutFeatures(Material material, const EnumSet<SceneFeature>& off) {
     material.opacity = 1;
     dropTexture(kOpacity);
   }
+  if (isOff(kCastsShadow, off)) material.castsShadow = true;
   return isOff(material.model.keyword(), off) ? asPhong(std::move(material)) : material;
+}
+
+bool castsShadows(const LightLinks& light, const EnumSet<SceneFeature>& off) {
+  return light.castsShadows || isOff(kCastsShadow, off);
 }
 
 std::optional<Light> lightWithout(const Light& light, const EnumSet<SceneFeature>& off) {

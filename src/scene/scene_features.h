@@ -9,6 +9,7 @@
 #include "base/enum_set.h"
 #include "scene/settings.h"
 #include "shading/lights/light.h"
+#include "shading/lights/light_links.h"
 #include "shading/material.h"
 
 namespace trace {
@@ -31,6 +32,9 @@ bool hasFeature(const Scene& scene, SceneFeature feature);
 /// The material without what is switched off: no medium, no bumps, no displacement, no holes; Phong's closest
 /// approximation in place of a shading model.
 Material withoutFeatures(Material material, const EnumSet<SceneFeature>& off);
+
+/// Objects block the light.
+bool castsShadows(const LightLinks& light, const EnumSet<SceneFeature>& off);
 
 /// The point light that takes the place of a light that is switched off: its position, colour, size and
 /// attenuation. None if it is not.

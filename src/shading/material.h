@@ -68,6 +68,7 @@ struct Material {
   Real bump = 0;                         ///< its texture bends the normal for shading
   Real opacity = 1;                      ///< share of the surface that is there
   ShadedSides sides = ShadedSides::front;
+  bool castsShadow = true;     ///< off: light sampling passes it (render/rays/tracer.h)
   Real displacement = 0;       ///< moves the points of meshes (scene/displacement.h)
   int displacementLevels = 0;  ///< / number of times each triangle is cut in four before
   // The medium inside (shading/medium.h).
@@ -83,6 +84,8 @@ struct Material {
                         "coverage of the surface: light passes straight through the rest"},
                   Field{"sides", &Material::sides, "", -kNoLimit, kNoLimit,
                         "which sides of an opaque surface reflect light"},
+                  Field{"casts_shadow", &Material::castsShadow, "", -kNoLimit, kNoLimit,
+                        "off: rays to lights pass as if nothing were there"},
                   Field{"displacement", &Material::displacement, "units of the object", -kNoLimit, kNoLimit,
                         "how far the points of a mesh move along their normals; a texture of heights "
                         "scales it"},

@@ -62,6 +62,49 @@ TEST_F(Kind, RayAloneWithoutADisplayRendersAFirstScene) {
   EXPECT_TRUE(contains(again.err, "ray SCENE renders without a window")) << again.err;
 }
 
+TEST(KindErrors, HintsAreWhatCouldBeMeant) {
+  const std::pair<const char*, const char*> rows[]{
+      {"rotate (0, 1, 0) 30 { sphere { } }", "rotate y 30 { sphere { } }"},
+      {"rotate (0, 1, 0) 30 { sphere { } }", "expected rotate(x, y, z, degrees, object)"},
+      {"sphere { material = { texture = \"a.png\" } }", "diffuse = map(\"a.png\")"},
+      {"settings { sun_elevation = 35 } sphere { }", "background { turbidity = 3;"},
+      {"torus { radius = 0.6 }", "did you mean \"major_radius\" or \"minor_radius\"?"},
+  };
+  for (const auto& [text, expected] : rows)
+    EXPECT_TRUE(contains(errorOf(std::string("Trace 1\n") + text), expected))
+        << errorOf(std::string("Trace 1\n") + text);
+  Messages messages;
+  readScene("kind.ray", "Trace 1\nmaterial { diffuse = (1, 0, 0) }\nsphere { }", messages);
+  ASSERT_EQ(messages.all().size(), 1u);
+  EXPECT_TRUE(contains(messages.all()[0].hint, "material = { ... }")) << messages.all()[0].hint;
+}
+
+TEST(KindSettings, NoQualityUndoesTheQualityByDefault) {
+  const Scene scene = read("Trace 1\nsphere { }\n");
+  const std::vector<Choice> none{{"quality", "none", {}}};
+  const Settings usual, settings = settingsFor(scene, {scene.choices, none});
+  for (const char* option :
+       {"spp", "noise-target", "denoise", "depth", "firefly-limit", "sampling", "integrator"})
+    EXPECT_EQ(findOption(option).get(settings), findOption(option).get(usual)) << option;
+  EXPECT_EQ(settings.width, 640);
+}
+
+TEST(KindSettings, WhatAQualityBringsInVainIsLeftOut) {
+  const Scene scene = read("Trace 1\nsphere { }\n");
+  const auto with = [&](const char* integrator) {
+    const std::vector<Choice> given{{"integrator", integrator, {}}};
+    return settingsFor(scene, {scene.choices, given});
+  };
+  EXPECT_EQ(with("whitted").fireflyLimit, 0);
+  EXPECT_GT(with("path").fireflyLimit, 0);
+  EXPECT_FALSE(with("bdpt").denoise);
+  EXPECT_FALSE(with("mlt").denoise);
+  EXPECT_EQ(with("mlt").noiseTarget, 0);
+  Messages messages;
+  const Scene empty = readScene("kind.ray", "Trace 1\n", messages);
+  EXPECT_EQ(settingsFor(empty, {empty.choices}).spp, 1);
+}
+
 TEST_F(Kind, ABareObjectIsAPictureWorthLookingAt) {
   writeFile(path("ball.ray"), "Trace 1\nsphere { }\n");
   const auto result = run({"ball.ray", "ball.png", "-w", "32", "--spp", "16"});

@@ -208,11 +208,30 @@ TEST(PovScene, FormulasOfIsosurfaces) {
 
 TEST(PovScene, OmissionsAreToldOnceAndCounted) {
   std::string warnings;
-  sceneOf("\nlight_source { 0, 1 shadowless }\nlight_source { x, 1 shadowless }\nsphere { 0, 1 }", &warnings);
-  EXPECT_EQ(warnings, "3: shadowless is left out (2 times, first here)\n");
+  sceneOf("\nsphere { 0, 1 no_image }\nsphere { x, 1 no_image }", &warnings);
+  EXPECT_EQ(warnings, "3: no_image is left out (2 times, first here)\n");
   warnings.clear();
   sceneOf("#declare F = finish { crand 0.1 } sphere { 0, 1 }", &warnings);
   EXPECT_EQ(warnings, "") << "what is not used is not left out";
+}
+
+TEST(PovScene, WhatCastsNoShadow) {
+  const Scene scene = sceneOf(
+      "light_source { 0, 1 shadowless looks_like { sphere { 0, 0.1 } } translate <0, 3, 0> } light_source { "
+      "x, 1 } "
+      "union { sphere { 0, 1 } box { 0, 1 } no_shadow } sphere { 0, 1 no_shadow off } "
+      "difference { box { -1, 1 } sphere { 0, 1 } no_shadow }");
+  ASSERT_EQ(scene.lights.size(), 3u) << "the last is ambient light";
+  EXPECT_FALSE(scene.lights[0].links.castsShadows);
+  EXPECT_TRUE(scene.lights[1].links.castsShadows);
+  ASSERT_EQ(scene.objects.size(), 5u);
+  const auto casts = [&](std::size_t i) { return scene.materials[scene.objects[i].material].castsShadow; };
+  EXPECT_FALSE(casts(0)) << "what a light looks like does not block it";
+  EXPECT_NEAR(length(scene.objects[0].worldFromObject * Vec3() - Vec3(0, 3, 0)), 0, 1e-12);
+  EXPECT_FALSE(casts(1));
+  EXPECT_FALSE(casts(2));
+  EXPECT_TRUE(casts(3));
+  EXPECT_FALSE(casts(4));
 }
 
 TEST(PovScene, EveryShapeOfTheCorpusIsRead) {

@@ -318,7 +318,10 @@ TEST(RayFormat, MaterialsGoByName) {
     EXPECT_EQ(phongOf(scene, object).diffuse, color) << object;
   EXPECT_EQ(scene.materials[scene.objects[0].material].name, "red");
   EXPECT_EQ(scene.materials[scene.objects[5].material].name, "green");
-  EXPECT_EQ(warningsOf("material { diffuse = 1 }"), "2:1: a material without a name is never used");
+  EXPECT_EQ(warningsOf("material { diffuse = 1 }"),
+            "2:1: a material without a name is never used [material = { ... } is that of the objects after "
+            "it; name "
+            "= red; in it gives it a name]");
 }
 
 TEST(RayFormat, EqualMaterialsAreStoredOnce) {
@@ -704,6 +707,24 @@ TEST(RayFormat, ReadsAndWritesLinksAndFlaps) {
       readScene("back.ray", writeRay(loaded.scene, "back.ray", {}, messages).front().bytes, messages);
   EXPECT_EQ(back.lights.at(0).light, source.light);
   EXPECT_EQ(back.lights.at(0).links, source.links);
+}
+
+TEST(RayFormat, ReadsAndWritesWhatCastsNoShadow) {
+  const Loaded loaded = load(
+      "directional_light { direction = (0, -1, 0); color = (1, 1, 1); casts_shadows = off; }\n"
+      "directional_light { direction = (1, -1, 0); color = (1, 1, 1); casts_shadows = true; }\n"
+      "sphere { material = { diffuse = (1, 1, 1); casts_shadow = off; } }\n"
+      "sphere { material = { diffuse = (1, 1, 0); casts_shadow = on; } }");
+  EXPECT_EQ(loaded.warnings.size(), 0u);
+  Messages messages;
+  const Scene back =
+      readScene("back.ray", writeRay(loaded.scene, "back.ray", {}, messages).front().bytes, messages);
+  for (const Scene* scene : {&loaded.scene, &back}) {
+    EXPECT_FALSE(scene->lights.at(0).links.castsShadows);
+    EXPECT_TRUE(scene->lights.at(1).links.castsShadows);
+    EXPECT_FALSE(scene->materials[scene->objects.at(0).material].castsShadow);
+    EXPECT_TRUE(scene->materials[scene->objects.at(1).material].castsShadow);
+  }
 }
 
 TEST(RayFormat, ReadsAndWritesTheLightsThatObjectsName) {

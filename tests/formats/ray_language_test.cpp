@@ -284,6 +284,9 @@ TEST(RayLanguage, ErrorsNameThePlaceAndWhatLedThere) {
        "2:9: no value is called \"a\" [text stands in quotation marks]"},
       {"camera { fov = 40 deg; } sphere { }",
        "2:16: fov: expected a number of degrees, found 40 deg [write it without deg, which makes radians]"},
+      {"let r = 2\nscale(R) { sphere { } }", "3:7: no value is called \"R\" [did you mean \"r\"?]"},
+      {"let a = (1, 2, 3)\nlet b = a.w",
+       "3:9: expected a value, found \"a.w\" [components of a point or colour are .x .y .z and .r .g .b]"},
       {"color = #ffb", "2:9: expected six hexadecimal digits after #, as in #ffb347"},
       {"#include \"colors.inc\"",
        "2:1: expected six hexadecimal digits after #, as in #ffb347 [Trace has include \"file.ray\", let a = "

@@ -56,12 +56,12 @@ TEST(RayModels, AreRefusedWithAHint) {
   EXPECT_EQ(
       errorsOf("sphere { material = { model = lamber; } }"),
       "2:31: model: expected the name of a shading model, found \"lamber\" [did you mean \"lambert\"?]");
-  EXPECT_EQ(
-      errorsOf("sphere { material = { model = lambert; shininess = 5; } }"),
-      "2:40: the shading model lambert has no field \"shininess\" [it has name, bump, opacity, displacement, "
-      "displacement_levels, diffuse, "
-      "emissive, ambient "
-      "and shadow]");
+  EXPECT_EQ(errorsOf("sphere { material = { model = lambert; shininess = 5; } }"),
+            "2:40: the shading model lambert has no field \"shininess\" [it has name, bump, opacity, "
+            "casts_shadow, displacement, "
+            "displacement_levels, diffuse, "
+            "emissive, ambient "
+            "and shadow]");
   EXPECT_EQ(
       errorsOf("sphere { material = { model = conductor; metal = god; } }"),
       "2:50: metal: expected none, silver, aluminium, gold, copper or brass, found \"god\" [did you mean "

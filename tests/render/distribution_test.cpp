@@ -89,6 +89,34 @@ TEST(DepthOfField, FocusOnAnObjectOrAPointIsFocusAtItsDistance) {
   }
 }
 
+TEST(DepthOfField, FocusOnLooksIntoGroups) {
+  Scene scene;
+  addObject(scene, Sphere{}, Affine::translation({0, 0, -30}), ofColor(1, 0));
+  Group tree{.name = "tree", .objects = {scene.objects[0]}};
+  tree.objects[0].name = "leaf";
+  tree.objects[0].worldFromObject = Affine();
+  scene.groups.push_back(tree);
+  const auto placed = [](Real z) { return GroupUse{.outFromGroup = Affine::translation({0, 0, z})}; };
+  scene.uses.push_back(
+      {0, std::make_shared<const GroupUses::List>(GroupUses::List{placed(5), placed(-9), placed(-6)})});
+  scene.usePlaces.emplace_back();
+  Settings settings;
+  settings.aperture = 0.1;
+  for (const char* name : {"tree", "leaf"}) {
+    settings.focusOn = {.object = name};
+    EXPECT_NEAR(build(scene, settings).camera().optics.lens.focus, 5, 1e-9)
+        << "the nearest before the camera";
+  }
+  settings.focusOn = {.object = "leaves"};
+  try {
+    build(scene, settings);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("no object of the scene is called \"leaves\""),
+              std::string::npos);
+  }
+}
+
 TEST(DepthOfField, FocusOnAnObjectIsOnWhatTheCameraSeesOfIt) {
   Scene scene;
   addObject(scene, Sphere{}, Affine::translation({2, 0, -8}), ofColor(1, 0));

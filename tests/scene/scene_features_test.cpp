@@ -34,6 +34,7 @@ TEST(SceneFeatures, ChangeTheirPartAlone) {
   material.bump = 0.1;
   material.displacement = 0.2;
   material.opacity = 0.5;
+  material.castsShadow = false;
   material.mediumDensity = 3;
   Material expected = material;
   expected.bump = 0;
@@ -44,6 +45,11 @@ TEST(SceneFeatures, ChangeTheirPartAlone) {
   expected = material;
   expected.opacity = 1;
   EXPECT_EQ(withoutFeatures(material, only("opacity")), expected);
+  expected = material;
+  expected.castsShadow = true;
+  EXPECT_EQ(withoutFeatures(material, only("casts_shadow")), expected);
+  EXPECT_TRUE(castsShadows({.name = {}, .castsShadows = false}, only("casts_shadow")));
+  EXPECT_FALSE(castsShadows({.name = {}, .castsShadows = false}, only("opacity")));
   expected = material;
   expected.mediumDensity = 0;
   EXPECT_EQ(withoutFeatures(material, only("medium")), expected);

@@ -8,6 +8,7 @@
 #include "app/advice/auto_exposure.h"
 #include "app/advice/darkness.h"
 #include "image/development/development.h"
+#include "image/srgb.h"
 #include "render/samples/sampler.h"
 #include "scene/integrators.h"
 
@@ -96,6 +97,30 @@ std::string noiseText(const Settings& settings, const Film& film) {
       "; noisy: its estimated error is %.0f levels of 255, which --spp %d halves and --denoise hides", levels,
       4 * samplesOf(settings));
   return text;
+}
+
+std::string fireflyText(const Settings& settings, const Film& film) {
+  constexpr double kStandsOut = 64, kUnsure = 24;  // levels of 255: above all neighbours, and of error
+  constexpr std::size_t kFew = 4, kOneIn = 20000;
+  if (settings.fireflyLimit > 0 || !hasTrait(settings, Trait::meetsLamps)) return "";
+  if (film.corners() || film.takesSplats()) return "";
+  const Development development = developmentOf(settings);
+  const Picture errors = film.errors();
+  Picture levels = film.picture();
+  for (Color& c : levels.pixels) c = Color(255 * luminanceOf(developed(c, development)));
+  const auto standsOut = [&](int x, int y) {
+    double around = 0;
+    for (int j = -1; j <= 1; ++j)
+      for (int i = -1; i <= 1; ++i)
+        if (i != 0 || j != 0) around = std::max(around, levels.at(x + i, y + j).r);
+    return levels.at(x, y).r > around + kStandsOut && 255 * errors.at(x, y).r > kUnsure;
+  };
+  std::size_t count = 0;
+  for (int y = 1; y + 1 < levels.height; ++y)
+    for (int x = 1; x + 1 < levels.width; ++x) count += standsOut(x, y);
+  if (count < std::max(kFew, levels.pixels.size() / kOneIn)) return "";
+  return "; " + std::to_string(count) +
+         " fireflies, pixels far brighter than all around them, which --firefly-limit 8 removes";
 }
 
 }  // namespace trace

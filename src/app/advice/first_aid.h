@@ -22,4 +22,8 @@ std::optional<Message> firstAid(const Scene& scene, const Settings& settings, co
 /// "" if it is not noisy, if nothing is known of that, or if settings say how much is allowed.
 std::string noiseText(const Settings& settings, const Film& film);
 
+/// How many pixels a few very bright paths make stand out (fireflies), with a cure, to follow the last line
+/// of a render; "" if there are hardly any, if that is not known, or if they are limited.
+std::string fireflyText(const Settings& settings, const Film& film);
+
 }  // namespace trace

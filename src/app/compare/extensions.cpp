@@ -122,6 +122,8 @@ constexpr std::array kExtensions{
     Extension{"film on metal", "colours of anodised titanium and tempered steel", "oxide.ray",
               "--models phong", "", "", "--models phong"},
     Extension{"opacity", "holes in any material, and veils", "holes.ray", "--textures off", "", ""},
+    Extension{"casts_shadow", "objects and lights that cast no shadow", "shadowless.ray",
+              "--switched-off casts_shadow", "", ""},
     Extension{"frost", "a pane roughened by frost", "frost.ray", "--textures off", "", "", "--textures off"},
     Extension{"rain", "drops, and oil on a wet street", "rain.ray", "--models phong", "", "",
               "--models phong"},
@@ -273,7 +275,8 @@ std::string extensionsMarkdown() {
       "(`--models phong`).\n\n`--without NAME` switches any of them off, also one that the scene asks for: "
       "`--without aperture`, `--without thin-film`. Parts of scenes have names, too: `--without media`, "
       "`spot`, `warn`, "
-      "`ies`, `projector`, `bump`, `displacement` and `opacity`, and each shading model alone. The lights "
+      "`ies`, `projector`, `bump`, `displacement`, `opacity` and `casts_shadow`, and each shading model "
+      "alone. The lights "
       "become point lights at "
       "their place, the shading models Phong's closest approximation.\n";
   for (const Extension& e : kExtensions) {

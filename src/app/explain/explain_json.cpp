@@ -78,7 +78,8 @@ class RayWriter {
       json["filters"].add({{"object", object(ray.filters[k])},
                            {"part", filter.part},
                            {"distance", filter.t},
-                           {"factor", toJson(filter.factor)}});
+                           {"factor", toJson(filter.factor)},
+                           {"shadowless", filter.shadowless}});
     }
     json["ends"] = Json::list();
     for (std::size_t k = 0; k < node.ends.size(); ++k)

@@ -246,11 +246,12 @@ class TreeText {
   void light(const Term& term, const ExplainedTerm& named, const RayNode& node) {
     const LightTerm& light = *term.light;
     const bool none = isBlack(term.factor), always = term.ray < 0;
+    const Real shadow = whitted(*node.bsdf).shadow;
     const Vec3 normal = node.hit->surface.shading;
     const bool away = dot(light.arriving.toLight, normal) * dot(node.ray.direction, normal) >= 0;
     line("+ " + printable(named.light) + " " + digits(term.factor * term.value) +
          (none     ? (away ? "; faces away, no shadow ray" : "; scatters none of it, no shadow ray")
-          : always ? "; the part that no shadow takes away"
+          : always ? (shadow == 1 ? "; it casts no shadows" : "; the part that no shadow takes away")
                    : ""));
     const Illumination& from = light.arriving;
     const std::string lit = from.attenuation == 1 ? "" : " * attenuation " + digits(from.attenuation);
@@ -265,7 +266,7 @@ class TreeText {
               ? " * " + digits(light.share) + ", for it was chosen among all lights with probability " +
                     digits(light.probability)
               : " * " + digits(light.share) + " as one of several rays"));
-    const Real shadow = whitted(*node.bsdf).shadow;
+    if (always && shadow == 1) return;
     if (always) return line("      * " + digits(1 - shadow) + " = 1 - the material's shadow");
     line((shadow == 1 ? "" : "      * the material's shadow " + digits(shadow) + "\n" + margin_) +
          "      * passed " + digits(term.value) + " of #" + std::to_string(term.ray));
@@ -276,8 +277,12 @@ class TreeText {
     if (std::isfinite(node.tMost)) line("to the light at distance " + digits(node.tMost));
     for (std::size_t i = 0; i < node.filters.size(); ++i) {
       const Filter& filter = node.filters[i];
-      line("* " + digits(filter.factor) + " through " + printable(explained.filters[i].name) +
-           (std::isfinite(filter.t) ? " at distance " + digits(filter.t) : " on its way"));
+      const std::string at = std::isfinite(filter.t) ? " at distance " + digits(filter.t) : " on its way";
+      if (filter.shadowless) {
+        line("past " + printable(explained.filters[i].name) + at + ", which casts no shadow");
+        continue;
+      }
+      line("* " + digits(filter.factor) + " through " + printable(explained.filters[i].name) + at);
     }
     line("= " + digits(node.radiance) + " passes");
   }

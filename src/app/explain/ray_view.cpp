@@ -181,12 +181,16 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     if (needed && shadow != 1)
       row("  share of it",
           sent ? text(shadow) + ": the material's shadow" : text(1 - shadow) + ": always lit");
-    row("  passes", sent     ? text(term.value)
-                    : needed ? "all of it, in shadow too"
-                             : "no shadow ray was needed");
+    row("  passes", sent                    ? text(term.value)
+                    : needed && shadow == 1 ? "all of it: the light casts no shadows"
+                    : needed                ? "all of it, in shadow too"
+                                            : "no shadow ray was needed");
   }
   for (const Filter& filter : node.filters)
-    row("filtered by " + objectName(scene, filter.object), text(filter.factor) + " at " + text(filter.t));
+    if (filter.shadowless)
+      row("past " + objectName(scene, filter.object), "it casts no shadow, at " + text(filter.t));
+    else
+      row("filtered by " + objectName(scene, filter.object), text(filter.factor) + " at " + text(filter.t));
 
   row("Result", "");
   if (!(node.through == Color(1))) row("passed by the medium", text(node.through));

@@ -38,16 +38,18 @@ std::vector<std::uint32_t> opaqueAround(const LintScene& s, const Light& light) 
   if (!position) return {};
   std::vector<std::uint32_t> around = objectsAround(s.world, *position);
   std::erase_if(around,
-                [&](std::uint32_t object) { return !s.world.opaque(object) || isAroundCamera(s, object); });
+                [&](std::uint32_t object) { return !s.world.blocks(object) || isAroundCamera(s, object); });
   return around;
 }
 
 void lightInside(const LintScene& s, Findings& findings) {
-  for (const LightSource& source : s.scene.lights)
+  for (const LightSource& source : s.scene.lights) {
+    if (!source.links.castsShadows) continue;
     for (const std::uint32_t object : opaqueAround(s, source.light))
       warn(findings, "light-inside", source.place,
            "the light is inside " + quoted(s, object) + ", which is opaque: it lights nothing outside",
-           "move the light out of it; a lamp needs an `emissive` surface and a light next to it");
+           "move the light out of it; a lamp needs an `emissive` surface with casts_shadow = off");
+  }
 }
 
 /// Looks at lights that stand somewhere: parallel light keeps its direction behind a pane, and has no focus

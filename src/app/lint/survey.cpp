@@ -172,7 +172,7 @@ class Surveyor {
   void arrived(Survey::Lamp& lamp, const RayNode& shadow) const {
     ++lamp.reachedOthers;
     for (const Filter& filter : shadow.filters) {
-      if (!refracts(shadow.ray, filter)) continue;
+      if (filter.shadowless || !refracts(shadow.ray, filter)) continue;
       if (lamp.throughGlass == 0) lamp.glass = filter.object;
       ++lamp.throughGlass;
       break;

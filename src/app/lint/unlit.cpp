@@ -66,7 +66,8 @@ void unlit(const LintScene& s, Findings& findings) {
                                      [](const LintFinding& f) { return f.check == "light-faces-away"; });
   std::set<std::uint32_t> cases;  // around a light, of which light-inside tells
   for (const LightSource& source : s.scene.lights)
-    for (const std::uint32_t around : opaqueAround(s, source.light)) cases.insert(around);
+    if (source.links.castsShadows)
+      for (const std::uint32_t around : opaqueAround(s, source.light)) cases.insert(around);
   for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
     const Survey::Seen& seen = s.survey.objects[object];
     if (seen.places < kFew || seen.lit > 0 || seen.couldBeLit < seen.places) continue;

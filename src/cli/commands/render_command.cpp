@@ -173,8 +173,9 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   std::string cleaned;
   if (const auto change = files.denoiseChange())
     cleaned = "; --denoise changed it by " + numberText(*change) + " levels on the average";
-  const std::string noise =
-      result.end == End::finished && !arguments.quick ? noiseText(session.settings(), session.film()) : "";
+  std::string noise;
+  if (result.end == End::finished && !arguments.quick)
+    noise = noiseText(session.settings(), session.film()) + fireflyText(session.settings(), session.film());
   std::string chosen = chosenText(session.scene(), session.settings(), session.measuredExposure());
   if (!chosen.empty()) chosen.insert(0, "; ");
   const std::string passes = saved.finish == LastSteps::all ? andPasses(session.settings()) : "";

@@ -24,7 +24,7 @@ CameraNode Reader::camera() {
     if (!(away > 0)) return;
     d = d / away;
     const Real direction = length(c.direction), right = length(c.right), up = length(c.up);
-    const Real hand = dot(cross(c.up, c.direction), c.right) < 0 ? -1 : 1;
+    const Real hand = dot(cross(c.up, c.direction), c.right) > 0 ? 1 : -1;
     Vec3 r = cross(c.sky, d);
     if (!(length(r) > 1e-9)) r = std::abs(d.y) > 0.9 ? Vec3{1, 0, 0} : cross(Vec3{0, 1, 0}, d);
     r = normalize(r);
@@ -132,7 +132,6 @@ std::shared_ptr<Node> Reader::lightSource() {
       light.parallel = true;
     } else if (w == "shadowless") {
       light.shadowless = true;
-      leaveOut(t, "shadowless", "the light casts shadows");
     } else if (w == "point_at") {
       light.pointAt = vector();
     } else if (w == "radius") {

@@ -131,7 +131,7 @@ struct Node {
   Ref<TextureNode> texture;                    ///< null: the one around it, or the default
   Affine textureAt;                            ///< object from texture
   Ref<InteriorNode> interior;
-  bool inverse = false, uv = false;
+  bool inverse = false, uv = false, noShadow = false;
 };
 
 struct CameraNode {

@@ -426,7 +426,10 @@ bool Reader::modifier(Node& node) {
              w == "no_bump_scale") {
     next();
     flag();
-  } else if (w == "no_shadow" || w == "no_image" || w == "no_reflection" || w == "no_radiosity") {
+  } else if (w == "no_shadow") {
+    next();
+    node.noShadow = flag();
+  } else if (w == "no_image" || w == "no_reflection" || w == "no_radiosity") {
     next();
     if (flag() && w != "no_radiosity") leaveOut(t, std::string(w));
   } else if (w == "inverse") {

@@ -407,6 +407,25 @@ Real reliefOf(const std::string& kind) {
 
 }  // namespace
 
+Painter::Look Painter::averageOf(const Entries<TextureNode>& entries, const std::vector<Look>& looks) {
+  Real total = 0;
+  for (const auto& [weight, one] : entries) total += std::max(weight, 0.0);
+  if (!(total > 0)) return looks.back();
+  Look all = looks.front();
+  for (Paint Look::*field : {&Look::diffuse, &Look::ambient, &Look::emissive, &Look::specular,
+                             &Look::reflective, &Look::transmissive}) {
+    Paint sum;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+      Paint part = looks[i].*field;
+      part.scale = part.scale * (std::max(entries[i].first, 0.0) / total);
+      if (!part.none()) sum = sum.none() ? part : added(sum, part);
+    }
+    all.*field = sum;
+  }
+  for (const Look& look : looks) all.clear = all.clear && look.clear;
+  return all;
+}
+
 Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
   Look l;
   if (!layer.entries.empty() && layer.pattern) {
@@ -416,7 +435,9 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
     std::vector<Look> looks;
     for (const auto& [at, one] : entries) looks.push_back(look(*one, uv));
     l = looks.front();
-    if (pattern.kind == "average" || !knows(pattern, place)) {
+    if (pattern.kind == "average") {
+      l = averageOf(entries, looks);
+    } else if (!knows(pattern, place)) {
       l = looks.back();
     } else {
       const Texture number = numberOf(pattern, place, uv);
@@ -438,8 +459,8 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
     const FinishNode& f = layer.finish ? *layer.finish : kUsual;
     tell(f.left);
     if (layer.normal) tell(layer.normal->left);
-    // The mean reflectance of a surface of that brilliance.
-    const Real strength = f.diffuse * 2 / (1 + std::max(f.brilliance, 0.0));
+    // Closest to cos^brilliance, in the mean of squares, on a ball that is lit from the viewer's side.
+    const Real strength = f.diffuse * 4 / (3 + std::max(f.brilliance, 0.0));
     l.diffuse = paint(
         p, [&](const Numbers& c) { return notBelowZero(rgb(c) * (shown(c) * strength)); }, uv);
     l.ambient = paint(

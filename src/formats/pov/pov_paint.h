@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "formats/pov/pov_nodes.h"
 #include "formats/warnings.h"
@@ -38,6 +39,7 @@ class Painter {
     std::optional<Texture> relief{};
     bool clear = false;  ///< nothing of the surface is seen
   };
+  static Look averageOf(const Entries<TextureNode>& entries, const std::vector<Look>& looks);
   Look look(const TextureNode& texture, bool uv);
   Look look(const TextureNode::Layer& layer, bool uv);
   Texture numberOf(const PatternNode& pattern, const Place& place, bool uv);

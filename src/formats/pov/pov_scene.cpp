@@ -26,6 +26,7 @@ struct Around {
   Ref<TextureNode> texture;
   Affine worldFromTexture;
   Ref<InteriorNode> interior;
+  bool noShadow = false;
 };
 
 /// A solid of which `outside` is what it does not fill.
@@ -41,14 +42,14 @@ class Builder {
 
   void build();
   /// One object alone, where POV-Ray has it.
-  void build(const Node& node) { emit(node, Affine(), {world_.defaultTexture, Affine(), nullptr}, 0); }
+  void build(const Node& node) { emit(node, Affine(), {world_.defaultTexture, Affine(), nullptr, false}, 0); }
 
  private:
   void camera();
   void sky();
   void settings();
   void emit(const Node& node, const Affine& worldFromParent, Around around, int depth);
-  void light(const Node& node, const Affine& world);
+  void light(const Node& node, const Affine& world, Around around, int depth);
   void add(Shape shape, const Affine& worldFromObject, std::uint32_t material, const Node& node);
   std::optional<SolidPart> solid(const Node& node, const Affine& worldFromParent, Around around, int depth);
   std::optional<SolidPart> combinedSolid(Node::Kind kind, std::vector<SolidPart> parts,
@@ -81,7 +82,7 @@ std::string shortest(Real v) { return toText(v); }
 void Builder::build() {
   const Work work("placing the objects", static_cast<std::int64_t>(world_.objects.size()));
   camera();
-  const Around nothing{world_.defaultTexture, base_, nullptr};
+  const Around nothing{world_.defaultTexture, base_, nullptr, false};
   for (const Ref<Node>& node : world_.objects) {
     checkBudget();
     emit(*node, base_, nothing, 0);
@@ -134,6 +135,7 @@ void Builder::camera() {
 std::uint32_t Builder::material(const Around& around, const Affine& worldFromObject, bool uv) {
   const Affine objectFromTexture = inverted(worldFromObject) * around.worldFromTexture;
   Material m = painter_.material(*around.texture, around.interior.get(), objectFromTexture, uv);
+  m.castsShadow = !around.noShadow;
   // Few scenes have many; the last ones are the likeliest.
   const std::size_t n = scene_.materials.size();
   for (std::size_t i = n; i-- > 0 && n - i < 40;)
@@ -148,6 +150,7 @@ Around Builder::within(const Node& node, const Affine& world, Around around) con
     around.worldFromTexture = world * node.textureAt;
   }
   if (node.interior) around.interior = node.interior;
+  around.noShadow |= node.noShadow;
   return around;
 }
 
@@ -163,7 +166,7 @@ void Builder::emit(const Node& node, const Affine& worldFromParent, Around aroun
   around = within(node, world, std::move(around));
   switch (node.kind) {
     case Node::Kind::nothing: return;
-    case Node::Kind::light: return light(node, world);
+    case Node::Kind::light: return light(node, world, std::move(around), depth);
     case Node::Kind::unite:
       if (!node.clips.empty()) break;
       if (depth > kMostUnions) return leaveOut(node.place, "a union more than 60 deep");
@@ -178,7 +181,7 @@ void Builder::emit(const Node& node, const Affine& worldFromParent, Around aroun
             mesh && !node.meshTextures.empty() && !mesh->data->materials.empty()) {
           std::vector<std::uint32_t> numbers{material(around, place, node.uv)};
           for (const Ref<TextureNode>& t : node.meshTextures)
-            numbers.push_back(material({t, world, around.interior}, place, node.uv));
+            numbers.push_back(material({t, world, around.interior, around.noShadow}, place, node.uv));
           auto data = std::make_shared<MeshData>(*mesh->data);
           for (std::uint32_t& m : data->materials) m = numbers[std::min<std::size_t>(m, numbers.size() - 1)];
           shape = Mesh{data};
@@ -319,11 +322,15 @@ std::optional<SolidPart> Builder::solid(const Node& node, const Affine& worldFro
   return result;
 }
 
-void Builder::light(const Node& node, const Affine& world) {
+/// The object of looks_like stands around the light and does not block it.
+void Builder::light(const Node& node, const Affine& world, Around around, int depth) {
   const LightNode& l = node.light;
   const Vec3 position = world * l.position, at = world * l.pointAt;
   const Place place = node.place;
-  if (!node.parts.empty()) leaveOut(place, "looks_like", "the object would keep the light inside");
+  around.noShadow = true;
+  for (const Ref<Node>& look : node.parts)
+    emit(*look, world * Affine::translation(l.position), around, depth + 1);
+  const LightLinks links{.name = {}, .castsShadows = !l.shadowless};
   const auto fade = [&](auto& to) {
     to.constant = 1, to.linear = 0, to.quadratic = 0;
     if (!(l.fadePower > 0) || !(l.fadeDistance > 0)) return;
@@ -343,7 +350,7 @@ void Builder::light(const Node& node, const Affine& world) {
   const Vec3 aim = at - position;
   if (l.parallel && length(aim) > 0) {
     DirectionalLight sun{.direction = normalize(aim), .color = color};
-    scene_.lights.push_back({sun, place});
+    scene_.lights.push_back({sun, place, links});
     return;
   }
   const Real size = l.area ? (length(linear(world, l.axis1)) + length(linear(world, l.axis2))) / 4 : 0;
@@ -363,7 +370,7 @@ void Builder::light(const Node& node, const Affine& world) {
       spot.angle = std::atan2(l.falloff, away) * 180 / kPi;
       spot.fullAngle = std::atan2(std::min(l.radius, l.falloff), away) * 180 / kPi;
     }
-    scene_.lights.push_back({spot, place});
+    scene_.lights.push_back({spot, place, links});
     return;
   }
   PointLight point;
@@ -371,7 +378,7 @@ void Builder::light(const Node& node, const Affine& world) {
   point.color = color;
   point.radius = size;
   fade(point);
-  scene_.lights.push_back({point, place});
+  scene_.lights.push_back({point, place, links});
 }
 
 void Builder::sky() {
@@ -484,6 +491,9 @@ void Builder::settings() {
       choose("fog-height", shortest(fog.height));
     }
     choose("fog", shortest(density));
+    const bool hasMedia = std::any_of(scene_.materials.begin(), scene_.materials.end(),
+                                      [](const Material& m) { return m.mediumDensity > 0; });
+    if (!hasMedia) choose("fog-samples", "0");
     choose("fog-color", shortest(std::clamp(fog.color.r, 0.0, 1.0)) + "," +
                             shortest(std::clamp(fog.color.g, 0.0, 1.0)) + "," +
                             shortest(std::clamp(fog.color.b, 0.0, 1.0)));

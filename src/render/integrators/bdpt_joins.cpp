@@ -48,9 +48,13 @@ void Bidirectional::askLights(Gather& sum, const PathPlace& at, const Path& path
     if (surface && surface->material.litThrough) ray.leaves = surface->hit.object;  // not in its own way
     const Color passed = at.visible(tracer, ray, arriving->distance,
                                     sampler.branch(Branch::bdptToLamp).branch(asked.branch).branch(n));
-    const Real shadow = surface ? surface->material.shadow : 1;
-    const Color counted = all * counts + extra * share(1, t, 0, sample);
-    sum.addWay(Term::Kind::light, counted * shadow, passed, ConnectionTerm{1, t, counts});
+    const Real shadow = surface ? surface->material.shadow : 1, alone = share(1, t, 0, sample);
+    const Real weight = tracer.passedShadowless() ? alone : counts;
+    const Color counted = all * weight + extra * alone;
+    sum.addWay(Term::Kind::light, counted * shadow, passed, ConnectionTerm{1, t, weight});
+    if (!world.lightCastsShadows(i) && !(passed == Color(1)))  // no other strategy brings the rest
+      sum.addWay(Term::Kind::light, (all + extra) * (alone * shadow), Color(1) + passed * -1,
+                 ConnectionTerm{1, t, alone});
     if (shadow < 1)
       sum.addWay(Term::Kind::light, (all + extra) * (1 - shadow), Color(1), ConnectionTerm{1, t, 1});
   };
@@ -84,10 +88,11 @@ void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path,
       Partial::power(at.density(at.from(), toLight) / place->density) +
       path.partial.others(starts ? starts_.overAsked(*place, at.point()) * at.cosine(toLight) : 0,
                           at.density(toLight, at.from()));
-  const Real counts = share(1, t, others, sample);
+  Real counts = share(1, t, others, sample);
   if (!(counts > 0)) return;
   const Ray ray = at.leave(toLight);
   const Color seen = lamps_.look(tracer, ray, *place, at.side(toLight), tracer.chance(numbers));
+  if (tracer.passedShadowless()) counts = share(1, t, 0, sample);
   if (!tracer.world().media().empty() && !isBlack(seen))
     light *= passedByBodies(tracer, ray, place->distance, sampler.branch(Branch::bdptToLamp));
   sum.addWay(Term::Kind::lamp, light * (counts / place->density), seen, ConnectionTerm{1, t, counts});

@@ -56,6 +56,7 @@ void refuseForVeach(const World& world, const Settings& settings) {
   if (!world.media().empty()) refuse("media inside objects");
   if (world.hasSubsurface()) refuse("subsurface scattering");
   if (world.hasHoles()) refuse("surfaces that are there in part (opacity)");
+  if (world.hasShadowless() || world.hasShadowlessLights()) refuse("what casts no shadow (casts_shadow)");
   if (settings.wavelengths > 1) refuse("light that glass splits (--wavelengths)");
   if (settings.outlines > 0) refuse("--outlines");
   if (settings.smoothTerminator) refuse("--smooth-terminator");

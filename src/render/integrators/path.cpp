@@ -234,11 +234,12 @@ void PathTracer::addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, c
   const bool inward = dot(place->toLight, at.normal) < 0;
   if (isBlack(scattered) || (!inward && at.isAstray(place->toLight))) return;
   const Real other = shareOfLobe * density(at.bsdf(), at.frame, toEye, place->toLight);
-  const ChanceTerm chance = weighed(place->density, other);
+  ChanceTerm chance = weighed(place->density, other);
   const Ray toLamp = at.leaveToLight(place->toLight);
   const Real hole = at.tracer.chance(own);
   const Color seen = inward && at.transmits ? lamps_.look(at.tracer, toLamp, *place, at.behind(), hole)
                                             : lamps_.look(at.tracer, toLamp, *place, at.inside, hole);
+  if (at.tracer.passedShadowless()) chance = weighed(place->density, 0);
   Color factor = scattered * (chance.share / place->density);
   if (!at.tracer.world().media().empty() && !isBlack(seen))
     factor *= passedByBodies(at.tracer, toLamp, place->distance, numbers.branch(Branch::pathToLamp));

@@ -288,8 +288,8 @@ Real Lamps::skyStartDensity(const Vec3& toLight) const {
 
 bool Lamps::isPlain(const Tracer& tracer, const Place& place, const Interfaces& inside) const {
   const World& world = tracer.world();
-  return place.object != kNone && world.isUniform(place.object) && !world.hasHoles() && !inside.nested() &&
-         !(tracer.settings().fog > 0) && !tracer.records();
+  return place.object != kNone && world.isUniform(place.object) && !world.hasHoles() &&
+         !world.hasShadowless() && !inside.nested() && !(tracer.settings().fog > 0) && !tracer.records();
 }
 
 Color Lamps::look(Tracer& tracer, const Ray& ray, Place& place, const Interfaces& from, Real chance) const {
@@ -302,7 +302,7 @@ Color Lamps::look(Tracer& tracer, const Ray& ray, Place& place, const Interfaces
     return tracer.world().termsOf(place.object).emissive * from.passed(found->t);
   }
   Interfaces inside = from;
-  const std::optional<Hit> hit = tracer.cast(ray, RayKind::lamp, inside, chance);
+  const std::optional<Hit> hit = tracer.cast(ray, RayKind::lamp, inside, chance, place.object);
   Gather light(tracer, 1);
   if (!hit) {
     if (place.object == kNone) {

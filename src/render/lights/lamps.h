@@ -162,7 +162,7 @@ class Lamps {
   Real power_ = 0;
   std::vector<Real> sums_;            ///< sums of the shares, up to and with each part
   std::vector<std::uint32_t> first_;  ///< first part of each object; kNone for no lamp
-  static constexpr std::uint32_t kNone = 0xffffffffu;
+  static constexpr std::uint32_t kNone = Tracer::kSky;
 };
 
 }  // namespace trace

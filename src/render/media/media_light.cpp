@@ -19,9 +19,11 @@ void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const S
     const Real scattered = phase(place.forward, dot(place.ray.direction, arriving->toLight));
     const Color factor = place.share * arriving->intensity() * (kPi * scattered * left * asked.share);
     if (isBlack(factor)) return;
-    const Color passed = throughBodies(
-        tracer, tracer.visible(place.point, arriving->toLight, arriving->distance, place.inside), toLight,
-        arriving->distance, numbers.branch(Branch::lightMedia, asked.branch));
+    Color passed(1);
+    if (world.lightCastsShadows(asked.light))
+      passed = throughBodies(tracer,
+                             tracer.visible(place.point, arriving->toLight, arriving->distance, place.inside),
+                             toLight, arriving->distance, numbers.branch(Branch::lightMedia, asked.branch));
     sum.addScattered(asked.light, factor, passed, place.medium);
   });
 }
@@ -35,12 +37,13 @@ void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lam
   if (!lamp) return;
   const Ray toLamp{place.point, lamp->toLight};
   const Color seen = lamps.look(tracer, toLamp, *lamp, place.inside, tracer.chance(chances));
+  const bool shadowless = tracer.passedShadowless();
   const Real scattered = phase(place.forward, dot(place.ray.direction, lamp->toLight));
   Color factor = place.share * (scattered / lamp->density);
   if (!place.medium) return sum.add(Term::Kind::fog, factor, seen);
   if (!tracer.world().media().empty() && !isBlack(seen))
     factor *= passedByBodies(tracer, toLamp, lamp->distance, numbers.branch(Branch::scatteredToLamp));
-  const Real other = met ? scattered : 0, square = lamp->density * lamp->density;
+  const Real other = met && !shadowless ? scattered : 0, square = lamp->density * lamp->density;
   const ChanceTerm chance{lamp->density, other, other > 0 ? square / (square + other * other) : 1};
   sum.add(factor * chance.share, seen, *place.medium, chance);
 }
@@ -73,6 +76,7 @@ void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interface
   if (!isBlack(ambient)) sum.add(Term::Kind::fog, scatters, ambient);
 
   const int places = settings.fogSamples;
+  if (places == 0) return;
   const Color share = scatters * (1.0 / places);
   for (int k = 0; k < places; ++k) {
     Sampler numbers = sampler.branch(static_cast<std::uint32_t>(k));

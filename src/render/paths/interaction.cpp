@@ -93,7 +93,9 @@ void Interaction::letIn() {
 void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
   const World& world = tracer.world();
   const Vec3& from = lightPlace();
-  const bool foggy = tracer.settings().fog > 0;
+  const Settings& settings = tracer.settings();
+  const bool plainFog = settings.fogSamples == 0 && !hasTrait(settings, Trait::scattersInMedia);
+  const bool foggy = settings.fog > 0 && !plainFog;
   askLights(tracer, from, &normal, sampler, [&](const AskedLight& asked) {
     const std::uint32_t i = asked.light;
     if (!world.lights(i, hit.object)) return sum.noteDark(i, DarkTerm::Why::unlinked);
@@ -105,8 +107,8 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
       Scatter parts = scatter(*bsdf_, frame, arriving->toLight, -ray.direction);
       parts.diffuse *= Color(1 - coat);
       const Color scattered = arriving->scattered(parts) * share;
-      Color passed;
-      if (!isBlack(scattered)) {
+      Color passed(1);
+      if (!isBlack(scattered) && world.lightCastsShadows(i)) {
         Ray toward = leaveToLight(arriving->toLight);
         if (material.litThrough) toward.leaves = hit.object;  // it is not in its own way
         passed = tracer.visible(hit, toward, arriving->distance, inside);
@@ -139,7 +141,7 @@ void Interaction::addOpen(Gather& sum, Term::Kind kind, const Color& factor, int
     const Vec3 direction = basis.toWorld(cosineDirection(u));
     Interfaces there = inside;
     const std::optional<Hit> met =
-        tracer.cast(leaveToLight(direction), RayKind::bounce, there, tracer.chance(chances));
+        tracer.cast(leaveToLight(direction), RayKind::bounce, there, tracer.chance(chances), Tracer::kSky);
     Color open;
     {
       Gather beyond(tracer, 1);

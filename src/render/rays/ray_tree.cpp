@@ -99,7 +99,9 @@ std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
                         const bool none = isBlack(node.radiance);
                         std::string names;
                         for (const Filter& filter : node.filters)
-                          names += (names.empty() ? "" : ", ") + fillingName(scene, filter.object);
+                          if (!filter.shadowless)
+                            names += (names.empty() ? "" : ", ") + fillingName(scene, filter.object);
+                        if (names.empty()) return "reached the light";
                         return (none ? "absorbed by " : "reached the light, filtered by ") + names;
                       },
                       [&](const MetLight& e) {
@@ -192,6 +194,9 @@ std::string fillingText(const Scene& scene, std::uint32_t object, Real priority)
 
 std::string sentence(const Ignored& ignored, const Scene& scene) {
   const Filling &body = ignored.body, &around = ignored.around;
+  if (ignored.shadowless)
+    return objectName(scene, ignored.object) + " at distance " + shortText(ignored.t, 6) +
+           ": it casts no shadow";
   std::string text = (ignored.leaving ? "leaving " : "entering ") + objectName(scene, ignored.object) +
                      " at distance " + shortText(ignored.t, 6) + ": ";
   if (ignored.opacity < 1)

@@ -212,7 +212,7 @@ struct Term {
 };
 
 /// A surface at which nothing changes for light: the ray continued. There is a hole, or it is so by the rule
-/// of nested glass.
+/// of nested glass, or the ray samples light and the surface casts no shadow.
 struct Ignored {
   std::uint32_t object = 0;
   std::uint64_t part = 0;
@@ -221,6 +221,7 @@ struct Ignored {
   Real opacity = 1;  ///< opacity of a hole, or of a partly open surface that was not hit: less than 1
   Filling body{};    ///< whose surface it is
   Filling around{};  ///< what fills the place on both sides
+  bool shadowless = false;
 };
 
 /// A surface that a shadow ray went through.
@@ -230,6 +231,7 @@ struct Filter {
   Real t = 0;
   Color factor;  ///< by which it multiplied the light
   std::vector<MaterialShare> materials{};
+  bool shadowless = false;  ///< the surface casts no shadow
 };
 
 struct RayNode {

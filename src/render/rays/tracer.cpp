@@ -26,11 +26,14 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found)
   world.bump(ray, *this);
 }
 
-std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance) {
+std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance,
+                                std::optional<std::uint32_t> aim) {
   count(kind);
   if (records()) begin(ray, kind, kInfinity, inside.wavelength);
   auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
-  if (found && (inside.nested() || world_.hasHoles())) found = walk(ray, kind, *found, inside, chance);
+  passedShadowless_ = false;
+  if (found && (inside.nested() || world_.hasHoles() || (aim && world_.hasShadowless())))
+    found = walk(ray, kind, *found, inside, chance, aim);
   if (!found || (kind == RayKind::camera && !world_.camera().sees(found->t))) {
     if (records()) {
       const CameraFrame& camera = world_.camera();
@@ -103,13 +106,30 @@ std::optional<Found> Tracer::lookAt(const Ray& ray, RayKind kind, std::uint32_t 
 
 /// From the nearest surface on to the first that counts. The line of the ray is asked once for all crossings,
 /// so that what lies behind is hit where it is hit without the surfaces before it.
-std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside,
-                                  Real chance) {
-  if (!ignored(ray, found, inside, chance)) return found;
+std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside, Real chance,
+                                  std::optional<std::uint32_t> aim) {
+  const auto goesOn = [&](const Found& at) {
+    return passesShadowless(at, aim) || ignored(ray, at, inside, chance);
+  };
+  if (!goesOn(found)) return found;
   collect(ray, kInfinity, facesSeenBy(kind), statistics_);
   for (const Found& next : crossed_)
-    if (found.before(next) && !ignored(ray, next, inside, chance)) return next;
+    if (found.before(next) && !goesOn(next)) return next;
   return std::nullopt;
+}
+
+/// A ray that samples light passes what casts no shadow.
+bool Tracer::passesShadowless(const Found& found, std::optional<std::uint32_t> aim) {
+  if (!aim || found.object == *aim || world_.castsShadow(found)) return false;
+  passedShadowless_ = true;
+  if (records()) {
+    Ignored& ignored = tree_->nodes.back().ignored.emplace_back();
+    ignored.object = found.object;
+    ignored.part = found.part;
+    ignored.t = found.t;
+    ignored.shadowless = true;
+  }
+  return true;
 }
 
 /// If nothing changes there for light: the ray is behind it now. `chance` becomes one for what comes next.
@@ -168,6 +188,7 @@ std::optional<Found> Tracer::behindHoles(const Ray& ray, RayKind kind, Statistic
 [[gnu::always_inline]] inline Color Tracer::visibleAlong(const Ray& ray, Real distance, Interfaces* inside,
                                                          Real wavelength) {
   count(RayKind::shadow);
+  passedShadowless_ = false;
   if (records()) begin(ray, RayKind::shadow, distance, wavelength);
   const Color color = passed(ray, distance, inside);
   if (records()) {
@@ -227,8 +248,8 @@ bool Tracer::occluded(const Ray& ray, Real tMost, QueryCounts<Nodes>& counts) {
   crossed_.clear();
   const bool blackGlass = settings_.glassShadows == GlassShadows::black;
   if (world_.occluded(ray, tMost, facesSeenBy(RayKind::shadow), counts, [&](const Found& found) {
-        const bool ends =
-            blackGlass && !(world_.opacityAt(ray, found) < 1) && !lightPasses(*world_.bsdfAt(ray, found));
+        const bool ends = blackGlass && !isShadowless(found) && !(world_.opacityAt(ray, found) < 1) &&
+                          !lightPasses(*world_.bsdfAt(ray, found));
         if (!ends) crossed_.push_back(found);
         return ends;
       }))
@@ -253,6 +274,13 @@ Color Tracer::filtered(const Ray& ray, Real distance, Interfaces* inside) {
     tree_->nodes.back().filters.push_back({object, part, t, factor, std::move(materials)});
   };
   for (const Found& found : crossed_) {
+    if (isShadowless(found)) {
+      passedShadowless_ = true;
+      if (records())
+        tree_->nodes.back().filters.push_back(
+            {found.object, found.part, found.t, Color(1), sharesOf(world_.materialMix(found)), true});
+      continue;
+    }
     const Real opacity = world_.opacityAt(ray, found);
     if (!(opacity > 0)) continue;
     const auto pass = [&](const Color& throughIt) {
@@ -318,7 +346,7 @@ std::optional<Blocked> Tracer::nearestBlocker(const Ray& ray, Real distance) con
     const bool opaque = world_.opaque(found.object) ||
                         (!(world_.opacityAt(ray, found) < 1) &&
                          (isBlack(world_.filter(ray, found)) || !lightPasses(*world_.bsdfAt(ray, found))));
-    if (opaque && (!nearest || found.before(*nearest))) nearest = found;
+    if (opaque && !isShadowless(found) && (!nearest || found.before(*nearest))) nearest = found;
     return false;
   });
   if (!nearest) return {};

@@ -24,7 +24,12 @@ class Tracer {
   ///
   /// It walks on through holes, too. What is there in part is hit with this chance, if `chance` is a number
   /// drawn from 0 up to 1, and counts as a whole; where that is 0 it is hit, and Hit::opacity says its share.
-  std::optional<Hit> cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance = 0);
+  ///
+  /// A ray with an `aim` samples the light of that object, or of kSky: it passes all else that casts no
+  /// shadow.
+  std::optional<Hit> cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance = 0,
+                          std::optional<std::uint32_t> aim = {});
+  static constexpr std::uint32_t kSky = 0xffffffffu;
   /// Such a number, drawn only where something has holes.
   template <class Numbers>
   Real chance(Numbers&& numbers) const {
@@ -37,6 +42,9 @@ class Tracer {
   Color visible(const Hit& from, const Ray& ray, Real distance, const Interfaces& inside);
   /// Casts a ray from a point in the open, in what is `inside`.
   Color visible(const Vec3& from, const Vec3& toLight, Real distance, const Interfaces& inside);
+  /// The last shadow ray or ray with an aim passed something that casts no shadow. No ray that bounces brings
+  /// that light, so this sample of it has the MIS weight 1.
+  bool passedShadowless() const { return passedShadowless_; }
   /// The first hit of a ray, except for holes; counted as of that kind, and not recorded.
   std::optional<Found> look(const Ray& ray, RayKind kind) {
     count(kind);
@@ -158,8 +166,12 @@ class Tracer {
   template <class Nodes>
   bool occluded(const Ray& ray, Real tMost, QueryCounts<Nodes>& counts);
   void sortCrossed();
-  std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside, Real chance);
+  std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside, Real chance,
+                            std::optional<std::uint32_t> aim);
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside, Real& chance);
+  bool passesShadowless(const Found& found, std::optional<std::uint32_t> aim);
+  /// Rays to lights pass the place. Those that join two paths do not: it is a vertex of its own.
+  bool isShadowless(const Found& found) const { return !joins_ && !world_.castsShadow(found); }
   Interfaces startOn(const Hit& from, const Ray& ray, const Interfaces& inside);
   Color visibleAlong(const Ray& ray, Real distance, Interfaces* inside, Real wavelength);
   /// Photons, or paths from lights, bring the light that the glass bends: to surfaces only, where light is
@@ -181,8 +193,9 @@ class Tracer {
   int current_ = kNoNode;  ///< the ray being followed
   int last_ = kNoNode;     ///< the one cast or left last, until a term takes it
   Statistics statistics_;
-  bool midair_ = false;                               // the shadow ray starts where no surface is
-  bool joins_ = false;                                // it ends at a vertex of another path
+  bool midair_ = false;  // the shadow ray starts where no surface is
+  bool joins_ = false;   // it ends at a vertex of another path
+  bool passedShadowless_ = false;
   std::vector<Found> crossed_;                        // crossings of one ray; kept to save allocations
   std::optional<std::pair<Vec3, Interfaces>> start_;  // start at the last point that was asked for
 };

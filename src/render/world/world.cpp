@@ -58,6 +58,17 @@ bool World::sendsOnOf(const Instance& instance, bool varnish, bool follow) const
   });
 }
 
+bool World::shadows(const MaterialMix& materials) const {
+  const auto casts = [&](int i) {
+    const std::uint32_t material = materials.material[i];
+    return material == MaterialMix::kClear || surfaces_[material].castsShadow;
+  };
+  if (materials.count == 1) return casts(0);
+  Real share = 0;
+  for (int i = 0; i < materials.count; ++i) share += casts(i) ? materials.weight[i] : 0;
+  return share >= 0.5;
+}
+
 PlaceBsdf World::bsdfAt(const Ray& ray, const Found& found) const {
   MaterialMix materials = materialMix(found);
   const SurfacePoint point = textured(materials) ? surface(ray, found) : SurfacePoint();

@@ -95,7 +95,8 @@ class World {
                  VisitFound visit) const {
     crossAll<Nodes>({ray, tMost, faces, false, counts, visit});
   }
-  /// Crossings for light: whether an opaque object, which is not visited, or visit(Found) has ended it.
+  /// Crossings for light: whether an opaque object that casts a shadow, which is not
+  /// visited, or visit(Found) has ended it.
   template <class Nodes>
   bool occluded(const Ray& ray, Real tMost, Faces faces, QueryCounts<Nodes>& counts, VisitFound visit) const {
     return crossAll<Nodes>({ray, tMost, faces, true, counts, visit});
@@ -107,6 +108,10 @@ class World {
 
   /// The place found, in world space; `ray` is the ray that found it.
   SurfacePoint surface(const Ray& ray, const Found& found) const;
+  /// Some material casts no shadow.
+  bool hasShadowless() const { return hasShadowless_; }
+  /// Whether at least half of the materials there cast a shadow.
+  bool castsShadow(const Found& found) const { return !hasShadowless_ || shadows(materialMix(found)); }
   /// The materials at the hit point: the material of the object, of the part of it, or those of the corners
   /// of its triangle.
   MaterialMix materialMix(const Found& found) const { return mixAt(instanceOf(found.object), found); }
@@ -186,6 +191,8 @@ class World {
   /// Light goes into some body and comes out elsewhere (shading/materials/subsurface.h).
   bool hasSubsurface() const { return hasSubsurface_; }
 
+  /// Every part of the object blocks rays to lights.
+  bool blocks(std::uint32_t object) const { return instanceOf(object).blocks; }
   /// No part of the object transmits light.
   bool opaque(std::uint32_t object) const { return instanceOf(object).opaque; }
 
@@ -234,6 +241,11 @@ class World {
     const std::vector<bool>& lit = litObjects_[light];
     return lit.empty() || lit[physical(object)];
   }
+  /// Objects block the light of that number.
+  bool lightCastsShadows(std::size_t light) const { return castShadows_[light]; }
+  bool hasShadowlessLights() const {
+    return std::find(castShadows_.begin(), castShadows_.end(), false) != castShadows_.end();
+  }
   /// A choice among lights().
   const LightTree& lightTree() const { return *lightTree_; }
   const std::vector<LightGeometry>& portals() const { return portals_; }
@@ -276,6 +288,7 @@ class World {
 
     std::uint32_t kind = 0;  ///< the index of the shape's type
     bool opaque = true;
+    bool blocks = true;  ///< opaque, and all of it casts a shadow
     bool convex = false;
     bool solid = false;
     bool mixed = false;  ///< parts of it are made of other materials
@@ -362,7 +375,7 @@ class World {
     const Ray& ray;  ///< in world space
     Real tMost;
     Faces faces;
-    bool opaqueEnds;  ///< a crossing with an opaque object ends the query unvisited
+    bool opaqueEnds;  ///< a crossing with what blocks light ends the query unvisited
     QueryCounts<Nodes>& counts;
     VisitFound visit;
   };
@@ -401,6 +414,7 @@ class World {
   void focus(const Scene& scene, const Settings& settings);
   /// Where the camera sees the objects of that name. Throws Error(Fault::usage) if there are none.
   Vec3 seenPlaceOf(const std::string& name, const Scene& scene) const;
+  std::optional<std::uint32_t> nearestPlaced(const std::string& name, const Scene& scene) const;
 
   struct Forms;  ///< complete in world_queries.cpp
   std::optional<Lamp> nearestLamp(const Ray& ray, Real t) const;
@@ -427,6 +441,7 @@ class World {
     Real opacity = 1;                          ///< where it has no texture
     bool hasHoles = false;                     ///< some of it may not be there
     bool twoSided = false;                     ///< shaded from both sides
+    bool castsShadow = true;
   };
   /// The BSDF of one of the scene's materials, or of MaterialMix::kClear.
   const Bsdf& bsdf(std::uint32_t material) const {
@@ -440,6 +455,7 @@ class World {
     return std::any_of(materials.material, materials.material + materials.count,
                        [&](std::uint32_t m) { return m != MaterialMix::kClear && surfaces_[m].twoSided; });
   }
+  bool shadows(const MaterialMix& materials) const;
   PlaceBsdf shade(std::uint32_t object, std::uint64_t part, const MaterialMix& materials,
                   const SurfacePoint& surface, const Differentials* arrived) const {
     if (materials.count == 1) {
@@ -466,11 +482,12 @@ class World {
 
   std::vector<Surface> surfaces_;  ///< surfaces of the scene's materials
   bool wantsFootprints_ = false, footprintsInUv_ = false, hasBumps_ = false, hasHoles_ = false,
-       hasTwoSided_ = false;
+       hasTwoSided_ = false, hasShadowless_ = false;
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<LightGeometry> lightGeometries_;
   std::vector<std::uint32_t> lightSources_;
+  std::vector<bool> castShadows_;              ///< by each light
   std::vector<std::vector<bool>> litObjects_;  ///< by each light; none: all
   std::vector<std::uint32_t> visibleLights_;
   std::shared_ptr<const Bvh> visibleBoxes_;  ///< over these

@@ -201,7 +201,8 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     const bool plain = textured.textures.empty();
     world.surfaces_.push_back({bsdfOf(material.model, world.rules_),
                                plain ? nullptr : std::make_shared<Material>(std::move(textured)), 0,
-                               material.opacity, hasHoles, twoSided});
+                               material.opacity, hasHoles, twoSided, material.castsShadow});
+    world.hasShadowless_ |= !material.castsShadow;
     world.hasTwoSided_ |= twoSided;
     world.hasHoles_ |= hasHoles;
     world.hasSubsurface_ |= material.model.is<Subsurface>();
@@ -310,6 +311,9 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       const World::Surface& surface = world.surfaces_.at(m);
       return surface.hasHoles || whitted(surface.bsdf).transmits();
     });
+    instance.blocks = instance.opaque && std::all_of(used.begin(), used.end(), [&](std::uint32_t m) {
+                        return m == MaterialMix::kClear || materials[m].castsShadow;
+                      });
     instance.solid = instance.mesh ? !world.nestedGlass_ || instance.opaque || closed(instance.mesh->data())
                                    : instance.shape.solid();
     inRange = inRange && isInRange(box) && isInRange(materials[object.material]) &&

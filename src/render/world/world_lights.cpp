@@ -71,6 +71,7 @@ void World::addLights(const Scene& scene, const Settings& settings, Messages& me
     lights_.push_back(light);
     lightGeometries_.push_back(geometry);
     lightSources_.push_back(i);
+    castShadows_.push_back(castsShadows(source.links, settings.switchedOff));
     litObjects_.push_back(litBy(source.links, objects));
   }
   leftOut.warn(messages);

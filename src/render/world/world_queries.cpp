@@ -205,7 +205,7 @@ template <class Nodes>
 bool World::crossMesh(std::uint32_t object, const Ray& ray, const Across<Nodes>& query) const {
   const Instance& instance = objects_[object];
   const MeshTree& mesh = *instance.mesh;
-  const bool ends = query.opaqueEnds && instance.opaque;
+  const bool ends = query.opaqueEnds && instance.blocks;
   bool ended = false;
   const auto met = [&](const MeshHit& hit) {
     if (!included(query.faces, object, ray, hit)) return false;
@@ -220,7 +220,7 @@ bool World::crossMesh(std::uint32_t object, const Ray& ray, const Across<Nodes>&
 
 template <class Nodes>
 bool World::crossShape(std::uint32_t object, const Ray& ray, const Across<Nodes>& query) const {
-  const bool ends = query.opaqueEnds && objects_[object].opaque;
+  const bool ends = query.opaqueEnds && objects_[object].blocks;
   bool ended = false;
   Real wanted = query.tMost;
   crossingsOfShape(object, ray, wanted, query.counts, [&](const Crossing& crossing) {

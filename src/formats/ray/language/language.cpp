@@ -319,6 +319,7 @@ class Expander : Evaluator {
     const std::size_t brackets = open(tuple);
     for (std::uint32_t child = tuple + 1; child < after(tuple);) {
       if (isMatrix || !isComputed(child, scope)) {
+        refuseUnknown(child, scope);
         child = item(child, after(tuple), scope, true);
         continue;
       }
@@ -330,6 +331,13 @@ class Expander : Evaluator {
       child = after(child);
     }
     close(brackets);
+  }
+  /// A word in the brackets of a transform is a value or an object.
+  void refuseUnknown(std::uint32_t index, const Scoped& scope) const {
+    const std::string_view text = wordAt(index);
+    if (text.empty() || find(text, scope).binding || constant(text)) return;
+    refuseDash(index, scope);
+    fail(index, "no value is called \"" + std::string(text) + "\"", nameHint(text, scope));
   }
   /// Is it an expression, rather than an object?
   bool isComputed(std::uint32_t index, const Scoped& scope) const {

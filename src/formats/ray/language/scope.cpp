@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 
 #include "base/budget.h"
 #include "base/files/file.h"
@@ -18,6 +19,12 @@ namespace {
 constexpr std::array<std::string_view, 8> kStatementWords{"let", "define", "for",     "in",
                                                           "if",  "else",   "include", "group"};
 constexpr std::array<std::string_view, 5> kConstants{"pi", "tau", "time", "true", "false"};
+
+bool isSameInSmallLetters(std::string_view a, std::string_view b) {
+  const auto small = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [&](char x, char y) { return small(x) == small(y); });
+}
 
 bool holdsTree(const Value& value) {
   return value.tree() || (value.list() && std::any_of(value.list()->begin(), value.list()->end(), holdsTree));
@@ -96,10 +103,10 @@ void Names::include(std::uint32_t statement, Scope& scope) {
 Names::Found Names::find(std::string_view name, const Scoped& from) const {
   if (name.empty()) return {};
   const Scope* skipped = nullptr;
-  for (Scoped scope = from; scope; scope = scope->parent) {
-    if (scope->hides == name) skipped = scope->parent.get();
-    for (Binding& binding : scope->bindings)
-      if (binding.name == name && !binding.isActive && scope.get() != skipped) return {&binding, scope};
+  for (const Scoped* scope = &from; *scope; scope = &(*scope)->parent) {
+    if ((*scope)->hides == name) skipped = (*scope)->parent.get();
+    for (Binding& binding : (*scope)->bindings)
+      if (binding.name == name && !binding.isActive && scope->get() != skipped) return {&binding, *scope};
   }
   return {};
 }
@@ -109,7 +116,10 @@ std::string Names::nameHint(std::string_view text, Scoped scope) const {
   for (; scope; scope = scope->parent)
     for (const Binding& binding : scope->bindings)
       if (binding.name != text) names.push_back(binding.name);  // it may be the one that is being made
-  const std::string hint = didYouMean(text, names);
+  std::string hint = didYouMean(text, names);
+  for (const std::string_view name : names)  // also of one letter, which is like every other
+    if (hint.empty() && isSameInSmallLetters(name, text))
+      hint = "did you mean \"" + std::string(name) + "\"?";
   return hint.empty() ? "text stands in quotation marks" : hint;
 }
 

@@ -56,8 +56,11 @@ bool read(Findings& findings, std::string_view name, const Item& value, int& to)
 }
 
 bool read(Findings& findings, std::string_view name, const Item& value, bool& to) {
-  const bool yes = value.is(Kind::word) && value.text() == "true";
-  if (!yes && !(value.is(Kind::word) && value.text() == "false")) {
+  const auto says = [&](std::string_view a, std::string_view b) {
+    return value.is(Kind::word) && (value.text() == a || value.text() == b);
+  };
+  const bool yes = says("true", "on");
+  if (!yes && !says("false", "off")) {
     findings.expected(value, name, "true or false");
     return false;
   }

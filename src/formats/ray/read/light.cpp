@@ -182,7 +182,8 @@ void read(Findings& findings, const Item& call, const LightType& type) {
       continue;
     }
     if (!assignField(findings, light, item)) {
-      findings.unknownField(type.keyword, item, keywords(light, {"colour", "name", "lights", "excludes"}));
+      findings.unknownField(type.keyword, item,
+                            keywords(light, {"colour", "name", "lights", "excludes", "casts_shadows"}));
       unknown.push_back(item.key());
       continue;
     }

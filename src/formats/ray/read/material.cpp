@@ -229,7 +229,8 @@ void Materials::unknownField(const Block& block, const Item& field) {
   const std::string_view key = field.key();
   const MaterialModel& model = block.material.model;
   if (!model.is<Phong>()) {
-    const auto fields = keywords(model, {"name", "bump", kOpacity, "displacement", "displacement_levels"});
+    const auto fields =
+        keywords(model, {"name", "bump", kOpacity, "casts_shadow", "displacement", "displacement_levels"});
     const std::string meant = didYouMean(key, fields);
     return findings_.error(
         field,
@@ -243,10 +244,13 @@ void Materials::unknownField(const Block& block, const Item& field) {
   if (having.empty() && key == "colour" && findings_.isOfKind())
     return findings_.error(field, "material has no field \"colour\"",
                            "diffuse = (red, green, blue) is its colour");
+  if (having.empty() && (key == kTexture || key == "map") && findings_.isOfKind())
+    return findings_.error(field, "material has no field \"" + std::string(key) + "\"",
+                           "a texture takes the place of a field's value: diffuse = map(\"a.png\")");
   if (having.empty())
-    return findings_.unknownField(
-        Material::kKeyword, field,
-        keywords(model, {"name", "bump", kOpacity, "displacement", "displacement_levels", kModel, kLibrary}));
+    return findings_.unknownField(Material::kKeyword, field,
+                                  keywords(model, {"name", "bump", kOpacity, "casts_shadow", "displacement",
+                                                   "displacement_levels", kModel, kLibrary}));
   const std::string of = "it is one of model = " + list(having, "or");
   if (findings_.isOfKind())
     return findings_.error(

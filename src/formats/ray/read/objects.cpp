@@ -351,7 +351,9 @@ void ObjectReader::add(const Item& call, Object object) {
 
 void ObjectReader::namedMaterial(const Item& call) {
   const NotedMaterial material = materials_.read(call.value(), materials_.current);
-  if (material.name.empty()) findings_.warn(call, "a material without a name is never used");
+  if (material.name.empty())
+    findings_.warn(call, "a material without a name is never used",
+                   "material = { ... } is that of the objects after it; name = red; in it gives it a name");
 }
 
 }  // namespace trace::rayfile

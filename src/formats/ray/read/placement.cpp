@@ -55,9 +55,15 @@ std::string rowText(const Vec3& row, Real last) {
   return "(" + toText(row.x) + ", " + toText(row.y) + ", " + toText(row.z) + ", " + toText(last) + ")";
 }
 
+/// Files of the kind count angles in degrees.
+std::string formOf(const Findings& findings, const TransformForm& transform) {
+  const bool turns = transform.name == "rotate" && findings.isOfKind();
+  return std::string(turns ? "rotate(x, y, z, degrees, object)" : transform.form);
+}
+
 std::optional<Item> wrongForm(Findings& findings, const Item& call, const TransformForm& transform,
                               const char* hint) {
-  findings.error(call, "expected " + std::string(transform.form), hint);
+  findings.error(call, "expected " + formOf(findings, transform), hint);
   return {};
 }
 
@@ -122,10 +128,14 @@ std::optional<Item> applyTransform(Findings& findings, const Item& call, Affine&
   if (call.value().is(Kind::tuple))
     for (const Item item : call.value()) items.push_back(item);
   const bool hasChild = !items.empty() && !items.back().is(Kind::number) && !items.back().is(Kind::tuple);
-  if (!hasChild)
+  if (!hasChild) {
+    const bool ofKind = findings.isOfKind() && !items.empty();
     return wrongForm(findings, call, transform,
-                     findings.isOfKind() && !items.empty() ? "the object or a number is missing"
-                                                           : "the object is missing");
+                     !ofKind ? "the object is missing"
+                     : transform.name == "rotate"
+                         ? "as in rotate(0, 1, 0, 30) { sphere { } } or rotate y 30 { sphere { } }"
+                         : "the object or a number is missing, as in translate(1, 2, 3) { sphere { } }");
+  }
 
   const std::optional<Item> child = items.back();
   items.pop_back();
@@ -143,7 +153,7 @@ std::optional<Item> applyTransform(Findings& findings, const Item& call, Affine&
     const auto word =
         std::find_if(items.begin(), items.end(), [](const Item& item) { return item.is(Kind::word); });
     if (!several && word != items.end()) {
-      findings.error(*word, "expected " + std::string(transform.form) + ", found " + describe(*word));
+      findings.error(*word, "expected " + formOf(findings, transform) + ", found " + describe(*word));
       return {};
     }
     return wrongForm(findings, call, transform, several ? "several objects stand in a group { }" : "");

@@ -69,6 +69,15 @@ std::string meant(std::string_view word, std::span<const std::string_view> known
   return instead.empty() ? didYouMean(word, known) : std::string(instead);
 }
 
+/// For a part of a field's name: of `radius`, all that end with "_radius".
+std::string partOf(std::string_view word, std::span<const std::string_view> known) {
+  std::string text;
+  for (const std::string_view field : known)
+    if (field.ends_with("_" + std::string(word)))
+      text += (text.empty() ? "did you mean \"" : " or \"") + std::string(field) + "\"";
+  return text.empty() ? text : text + "?";
+}
+
 /// For a field that is like no other: all there are, if they are few.
 std::string allOf(std::span<const std::string_view> fields) {
   constexpr std::size_t kFew = 6;
@@ -182,6 +191,7 @@ void Findings::unknownField(std::string_view owner, const Item& field,
   std::string hint;
   if (warnings_.size() < kFullWarnings) hint = meant(name, known);
   if (owner == "sphere" && name == "radius") hint = "scale(2) { sphere { } } makes it twice as large";
+  if (warnings_.size() < kFullWarnings && hint.empty()) hint = partOf(name, known);
   if (warnings_.size() < kFullWarnings && hint.empty()) hint = allOf(known);
   if (isOfKind())
     return error(field, std::string(owner) + " has no field " + quotedStart(name), std::move(hint));

@@ -23,9 +23,10 @@ class Search {
   template <class Links>
   void lookThrough(const Links& links) {
     forEachField<Links>([&](const auto& f) {
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(links.*f.member)>, std::string>)
+      using Value = std::remove_cvref_t<decltype(links.*f.member)>;
+      if constexpr (std::is_same_v<Value, std::string>)
         look(links.*f.member);
-      else
+      else if constexpr (!std::is_same_v<Value, bool>)
         for (const std::string& name : links.*f.member) look(name);
     });
   }

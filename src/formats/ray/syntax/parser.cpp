@@ -642,8 +642,11 @@ class Parser {
   /// Fails if the word at `start` is the beginning of a file's name.
   void refuseName(std::size_t start) const {
     const std::string_view text = textAt(start);
-    if (looksLikeFile(text))
-      fail(start, "expected a value, found " + quoted(text.substr(0, 40)), quotesHint(text));
+    if (!looksLikeFile(text)) return;
+    const std::size_t dot = text.size() - 2;
+    const bool component = text.size() > 2 && text.find('.') == dot && isLetter(text.back());
+    fail(start, "expected a value, found " + quoted(text.substr(0, 40)),
+         component ? "components of a point or colour are .x .y .z and .r .g .b" : quotesHint(text));
   }
 
   [[noreturn]] void fail(std::size_t offset, std::string what, std::string hint = {}) const {

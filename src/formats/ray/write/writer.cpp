@@ -328,8 +328,9 @@ class Writer {
 
   template <class Links>
   void writeLinks(const Links& links) {
+    const Links usual;
     forEachField<Links>([&](const auto& f) {
-      if (!(links.*f.member).empty()) field(f.keyword, links.*f.member);
+      if (links.*f.member != usual.*f.member) field(f.keyword, links.*f.member);
     });
   }
 
