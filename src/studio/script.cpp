@@ -25,9 +25,9 @@ namespace trace::studio {
 namespace {
 
 int whole(const std::string& word) {
-  constexpr double kMost = 1e9;
+  constexpr double kLargest = 1e9;
   const auto number = parseNumber(word);
-  if (!number || number->length != word.size() || !(std::abs(number->value) <= kMost) ||
+  if (!number || number->length != word.size() || !(std::abs(number->value) <= kLargest) ||
       number->value != std::floor(number->value))
     throw Error(Fault::usage, "expected a whole number, found \"" + word + "\"");
   return static_cast<int>(number->value);

@@ -172,8 +172,8 @@ SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled) {
 
     std::map<std::uint32_t, std::vector<std::size_t>> triangles;  // by their material: first corners
     for (std::size_t first = 0; first < corners->size(); first += 3) {
-      const std::uint32_t given = (*corners)[first].material;
-      triangles[given == SurfaceCorner::kOwn ? object.material : given].push_back(first);
+      const std::uint32_t own = (*corners)[first].material;
+      triangles[own == SurfaceCorner::kOwn ? object.material : own].push_back(first);
     }
     for (const auto& [material, firsts] : triangles) {
       if (material >= scene.materials.size()) continue;  // as if nothing were there

@@ -28,9 +28,9 @@ Outside::Outside(const Scene& scene, const Settings& settings, const CameraFrame
       background_(scene.background),
       backdrop_(scene.surroundings.backdrop),
       environment_(scene.surroundings.environment),
+      transparent_(settings.alpha),
       turn_{std::cos(settings.environmentRotation * kPi / 180),
             std::sin(settings.environmentRotation * kPi / 180)},
-      transparent_(settings.alpha),
       brightness_(settings.environmentBrightness) {
   if (settings.environmentRotation == 0) turn_ = {1, 0};
   if (background_.elevations.size() != background_.gradient.size()) background_.elevations.clear();

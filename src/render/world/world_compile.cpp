@@ -44,11 +44,6 @@ class TreesOfMeshes {
 
 namespace {
 
-std::shared_ptr<const Bvh> hierarchy(std::vector<BoxedItem> items, const Settings& settings) {
-  return std::make_shared<const Bvh>(settings.accel == Accel::none
-                                         ? Bvh::bruteForce(items)
-                                         : Bvh(std::move(items), Bvh::Leaves::single, settings.threads));
-}
 std::shared_ptr<const Bvh> hierarchy(std::span<const Box3> boxes, const Settings& settings) {
   return std::make_shared<const Bvh>(settings.accel == Accel::none
                                          ? Bvh::bruteForce(boxes)

@@ -41,7 +41,7 @@ class Expander : Evaluator {
     std::map<std::uint32_t, Syntax::Root> roots;
     for (const auto& [key, shared] : shared_)
       if (shared.again)
-        for (const auto& [node, root] : shared.copies) roots.emplace(node, root);
+        for (const auto& [node, copied] : shared.copies) roots.emplace(node, copied);
     syntax_.setUses(std::move(uses_), std::move(roots));
   }
 
