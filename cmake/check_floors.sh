@@ -52,6 +52,10 @@ if grep -rnE "^ *# *(if|elif|ifdef|ifndef).*($system)|^#include <($headers)(\.h)
   echo 'only src/base/os asks for the operating system, or includes its headers'
   exit 1
 fi
+if grep -rnE 'std::(bit_cast|rot[lr]|jthread|stop_token|ranges|views|source_location|atomic_ref)|<=>' src --exclude-dir=windows --exclude=bits.h; then
+  echo 'the library of the compiler for browsers lacks this; base/bits.h has some of it'
+  exit 1
+fi
 while read -r folder; do
   count="$(find "$folder" -maxdepth 1 -type f | wc -l)"
   if ((count > most)); then

@@ -1,5 +1,5 @@
 # Programs for 64-bit Windows, made on Debian by its mingw-w64 (./dev build windows). Nothing of the machine's own libraries is
-# seen: what is not the compiler's is in TRACE_WINDOWS_LIBRARIES, which cmake/windows/libraries.sh fills.
+# seen: what is not the compiler's is in TRACE_WINDOWS_LIBRARIES, which cmake/libraries.sh fills.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)

@@ -4,7 +4,6 @@
 // Sources: netpbm's pbm(5), pgm(5), ppm(5), pam(5) and pfm(5). P1 to P7 are read with any maximum, and P6 is
 // written; PFM is read in both byte orders and written. stb takes 16-bit PPM with its bytes swapped.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/bits.h"
 #include "base/budget.h"
 #include "base/text.h"
 #include "image/codecs/codec.h"
@@ -230,7 +230,7 @@ std::string encodePfm(const Picture& picture, Rounding, const Metadata&) {
       checkBudget();
       const Color& c = picture.at(x, y);
       for (const double channel : {c.r, c.g, c.b}) {
-        const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(channel));
+        const auto bits = bitCast<std::uint32_t>(static_cast<float>(channel));
         for (int shift = 0; shift < 32; shift += 8) file += static_cast<char>(bits >> shift & 255);
       }
     }
@@ -249,7 +249,7 @@ Raster decodePfm(std::string_view bytes, const PictureLimits& limits) {
       auto bits = static_cast<std::uint32_t>(head.reader.sample(2)) << 16;
       bits |= static_cast<std::uint32_t>(head.reader.sample(2));
       if (head.scale < 0) bits = bits >> 24 | (bits >> 8 & 0xff00) | (bits & 0xff00) << 8 | bits << 24;
-      samples[y * row + i] = std::bit_cast<float>(bits);
+      samples[y * row + i] = bitCast<float>(bits);
     }
   raster.samples = std::move(samples);
   return raster;

@@ -1,5 +1,5 @@
 # The studio for a browser: Dear ImGui from its sources, GLFW and OpenGL ES from Emscripten (./dev web).
-set(imgui ${PROJECT_SOURCE_DIR}/build/web-dependencies/sources/imgui)
+file(GLOB imgui ${PROJECT_SOURCE_DIR}/build/web-libraries/sources/imgui-[0-9]*)  # cmake/libraries.sh
 add_library(imgui STATIC ${imgui}/imgui.cpp ${imgui}/imgui_draw.cpp ${imgui}/imgui_tables.cpp ${imgui}/imgui_widgets.cpp
   ${imgui}/misc/cpp/imgui_stdlib.cpp ${imgui}/backends/imgui_impl_glfw.cpp ${imgui}/backends/imgui_impl_opengl3.cpp)
 target_include_directories(imgui SYSTEM PUBLIC ${imgui} ${imgui}/misc/cpp)

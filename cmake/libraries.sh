@@ -1,13 +1,24 @@
 #!/usr/bin/env bash
-# Fills a folder with the libraries that Trace needs for Windows and Debian has no packages of: compiles Debian's sources of
-# them with mingw-w64, and links the headers of those that are only headers.
+# Fills a folder with the libraries of Trace for a platform that Debian has no packages for: compiles Debian's sources of
+# them, and links the headers of those that are only headers.
 #
-#   libraries.sh FOLDER     an empty or new folder; takes ten minutes on two cores
+#   libraries.sh windows|web FOLDER     an empty or new folder; takes five to ten minutes on two cores
 set -euo pipefail
 
-folder="$(mkdir -p -- "$1" && cd -- "$1" && pwd -P)"
-toolchain="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)/toolchain.cmake"
+platform="$1"
+folder="$(mkdir -p -- "$2" && cd -- "$2" && pwd -P)"
+here="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd -P)"
 sources="$folder/sources"
+case "$platform" in
+  windows) how=(-DCMAKE_TOOLCHAIN_FILE="$here/windows/toolchain.cmake" -DTRACE_WINDOWS_LIBRARIES="$folder") ;;
+  web)
+    export NODE_PATH=/usr/share/nodejs EMSCRIPTEN=/usr/share/emscripten  # Debian's places; Draco asks for the second
+    flags='-pthread -fexceptions'
+    how=(-DCMAKE_TOOLCHAIN_FILE="$EMSCRIPTEN/cmake/Modules/Platform/Emscripten.cmake" -DCMAKE_FIND_ROOT_PATH="$folder"
+         -DCMAKE_PREFIX_PATH="$folder" -DCMAKE_C_FLAGS="$flags" -DCMAKE_CXX_FLAGS="$flags")
+    ;;
+  *) echo "libraries.sh: the platforms are windows and web, not $platform" >&2; exit 2 ;;
+esac
 
 # The sources of the release that this machine runs, by lists of our own: those of the machine stay as they are.
 fetchSources() {
@@ -26,13 +37,15 @@ fetchSources() {
   done
 }
 
+sourceOf() { echo "$sources/$1"-[0-9]*; }
+
 compile() {  # SOURCE, then options of cmake
   local source name
-  source="$(echo "$sources/$1"-[0-9]*/)"
+  source="$(sourceOf "$1")"
   name="$1"
   shift
-  cmake -S "$source" -B "$folder/build/$name" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_TOOLCHAIN_FILE="$toolchain" \
-    -DTRACE_WINDOWS_LIBRARIES="$folder" -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_INSTALL_LIBDIR=lib \
+  cmake -S "$source" -B "$folder/build/$name" -G Ninja -DCMAKE_BUILD_TYPE=Release "${how[@]}" \
+    -DCMAKE_INSTALL_PREFIX="$folder" -DCMAKE_INSTALL_LIBDIR=lib \
     -DBUILD_SHARED_LIBS=OFF -DBUILD_TESTING=OFF -DCMAKE_POLICY_VERSION_MINIMUM=3.5 "$@"
   cmake --build "$folder/build/$name"
   cmake --install "$folder/build/$name"
@@ -54,6 +67,7 @@ package() {  # PACKAGE TARGET VERSION
   cat >"$dir/${package}Config.cmake" <<END
 if(NOT TARGET $target)
   add_library($target INTERFACE IMPORTED)
+  target_include_directories($target INTERFACE $folder/include)
 endif()
 END
   cat >"$dir/${package}ConfigVersion.cmake" <<END
@@ -69,11 +83,24 @@ describe() {  # NAME VERSION LIBRARIES [FLAGS]
     >"$folder/lib/pkgconfig/$1.pc"
 }
 
-fetchSources imath openexr libwebp draco meshoptimizer
+zlib() {  # for the web, where its own rules would make a shared library; Debian has it for Windows
+  local source
+  source="$(sourceOf zlib)"
+  mkdir -p "$folder/build/zlib" "$folder/lib" "$folder/include"
+  cp "$source/zlib.h" "$source/zconf.h" "$folder/include/"
+  (cd "$folder/build/zlib" && emcc $flags -O2 -DHAVE_UNISTD_H -c "$source"/*.c && emar rcs "$folder/lib/libz.a" ./*.o)
+}
+
 headers CLI nlohmann stb tiny_obj_loader.h tiny_gltf.h
 package CLI11 CLI11::CLI11 2
 package nlohmann_json nlohmann_json::nlohmann_json 3
-describe zlib 1.2 -l:libz.a  # from Debian's libz-mingw-w64-dev
+if [[ "$platform" == windows ]]; then
+  fetchSources imath openexr libwebp draco meshoptimizer
+  describe zlib 1.2 -l:libz.a  # from Debian's libz-mingw-w64-dev
+else
+  fetchSources zlib imath openexr libwebp draco meshoptimizer imgui  # the last is compiled with the studio
+  zlib
+fi
 describe OpenEXR 3.1 '-lOpenEXR-3_1 -lOpenEXRCore-3_1 -lIlmThread-3_1 -lIex-3_1 -lImath-3_1 -l:libz.a' \
   "-I$folder/include/OpenEXR -I$folder/include/Imath"
 describe draco 1.5 -ldraco
@@ -81,8 +108,8 @@ compile meshoptimizer
 compile imath -DPYTHON=OFF
 compile openexr -DOPENEXR_BUILD_TOOLS=OFF -DOPENEXR_INSTALL_EXAMPLES=OFF -DOPENEXR_INSTALL_TOOLS=OFF
 compile libwebp -DWEBP_BUILD_{ANIM_UTILS,CWEBP,DWEBP,GIF2WEBP,IMG2WEBP,VWEBP,WEBPINFO,WEBPMUX,EXTRAS}=OFF
-compile draco -DDRACO_TESTS=OFF
-if [[ -d /usr/src/googletest ]]; then
+compile draco -DDRACO_TESTS=OFF -DDRACO_JS_GLUE=OFF
+if [[ "$platform" == windows && -d /usr/src/googletest ]]; then
   ln -sfn /usr/src/googletest "$sources/googletest-0"
   compile googletest -DBUILD_GMOCK=OFF
 fi
