@@ -195,6 +195,29 @@ TEST(PovScene, GammaAndDepth) {
   EXPECT_EQ(choiceOf(sceneOf("global_settings { assumed_gamma 2.2 }"), "transfer"), "linear");
 }
 
+TEST(PovScene, AFileWithoutItsVersionHasTheGammaOfOlderFiles) {
+  const auto toneOf = [](const char* version) {
+    Messages messages;
+    const Scene scene = readScene("test.pov", std::string(version) + "sphere { 0, 1 }", messages);
+    std::string tone;
+    for (const Choice& choice : scene.choices) tone += choice.option + " " + choice.value + "\n";
+    return tone;
+  };
+  EXPECT_EQ(toneOf(""), toneOf("#version 3.5;\n"));
+  EXPECT_NE(toneOf(""), toneOf("#version 3.7;\n"));
+}
+
+TEST(PovScene, ASkyWithAPatternHasItsPictures) {
+  std::string warnings;
+  const Scene scene = sceneOf(
+      "sky_sphere { pigment { bozo color_map { [0 color rgb <0, 0, 1>] [1 color rgb 1] } } }", &warnings);
+  EXPECT_EQ(warnings, "");
+  for (const Pixels* face : scene.background.faces()) {
+    ASSERT_TRUE(face->map);
+    EXPECT_EQ(face->map->width(), 256);
+  }
+}
+
 TEST(PovScene, FormulasOfIsosurfaces) {
   const Scene scene = sceneOf(
       "#declare F = function { sqrt(x * x + y * y) - 1 }; isosurface { function { max(F(x, y, z), abs(z) - "

@@ -32,8 +32,8 @@ struct World {
   std::optional<SkyNode> sky;
   std::optional<Color> background;
   Color ambientLight{1};
-  Real gamma = 0;  ///< assumed_gamma; 0: not given
-  Real version = 3.7;
+  Real gamma = 0;       ///< assumed_gamma; 0: not given
+  Real version = 3.62;  ///< for a file that does not say, by the manual of POV-Ray 3.7
   int depth = 5;
   bool radiosity = false, photons = false;
   Ref<TextureNode> defaultTexture;

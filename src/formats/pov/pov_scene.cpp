@@ -394,20 +394,9 @@ void Builder::sky() {
     });
     const Paint passes = painter_.paint(
         *p, [](const Numbers& c) { return clamp01(Color(c[0], c[1], c[2]) * c[3] + Color(c[4])); });
-    if (!all.none()) {  // what lies behind it
-      const Color under = all.scale;
-      if (!passes.texture && passes.none()) {
-        all = one;
-      } else {
-        trace::TextureNode mix{.model = Texture(trace::TextureNode{})->model};
-        (void)mix;
-        (void)under;
-        leaveOut(sky.place, "a layer of the sky_sphere below another");
-        all = one;
-      }
-    } else {
-      all = one;
-    }
+    if (!all.none() && (passes.texture || !passes.none()))
+      leaveOut(sky.place, "a layer of the sky_sphere below another");
+    all = one;
   }
   if (!all.texture) {
     to.colors = {all.scale};
@@ -450,7 +439,7 @@ void Builder::sky() {
     auto inside = std::make_shared<InsideFile>();
     inside->name = std::string("sky-") + name + ".png";
     inside->bytes = encodePicture(pictureFormatFor("sky.png"), picture, Rounding::nearest);
-    return Pixels{inside->name, nullptr, sky.place, inside};
+    return Pixels{inside->name, MipMap::decode(inside->bytes, inside->name), sky.place, inside};
   };
   to.front = face("front", {0, 0, -1}, {1, 0, 0}, {0, 1, 0});
   to.back = face("back", {0, 0, 1}, {-1, 0, 0}, {0, 1, 0});

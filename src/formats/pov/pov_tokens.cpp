@@ -70,8 +70,7 @@ void Source::split() {
       const std::optional<ParsedNumber> parsed = parseNumber(std::string_view(s).substr(at));
       const double number = parsed ? parsed->value : HUGE_VAL;
       const std::size_t to = at + (parsed ? parsed->length : 0);
-      if (!std::isfinite(number))
-        fail(at, "a number that is too large", "numbers go up to 1e308");
+      if (!std::isfinite(number)) fail(at, "a number that is too large", "numbers go up to 1e308");
       add(Token::Kind::number, at, to, number);
       at = to;
     } else if (isLetter(c)) {
