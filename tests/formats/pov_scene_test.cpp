@@ -210,7 +210,8 @@ TEST(PovScene, AFileWithoutItsVersionHasTheGammaOfOlderFiles) {
 TEST(PovScene, ASkyWithAPatternHasItsPictures) {
   std::string warnings;
   const Scene scene = sceneOf(
-      "sky_sphere { pigment { bozo color_map { [0 color rgb <0, 0, 1>] [1 color rgb 1] } } }", &warnings);
+      "sky_sphere { pigment { bozo color_map { [0 color rgb <0, 0, 1>] [1 color rgb 1] } } } sphere { 0, 1 }",
+      &warnings);
   EXPECT_EQ(warnings, "");
   for (const Pixels* face : scene.background.faces()) {
     ASSERT_TRUE(face->map);
