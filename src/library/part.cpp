@@ -113,6 +113,11 @@ Fields otherFields(const Struct& from, const Fields& given) {
   return fields;
 }
 
+/// An empty text or list, which no scene says.
+bool isEmpty(const Value& value) {
+  return (value.isText() && value.text().empty()) || (value.isList() && value.list().empty());
+}
+
 void drop(Fields& fields, std::initializer_list<std::string_view> names) {
   std::erase_if(fields, [&](const Field& field) {
     return std::find(names.begin(), names.end(), field.name) != names.end();
@@ -217,11 +222,8 @@ Node PartState::node() const {
     return nodeOf(scene, object.shape, object.name, object.material, object.worldFromObject);
   }
   Node node(keyword());
-  for (Field& field : all()) {
-    const bool isEmpty = (field.value.isText() && field.value.text().empty()) ||
-                         (field.value.isList() && field.value.list().empty());
-    if (isSayable(field.value) && !isEmpty) node.fields.push_back(std::move(field));
-  }
+  for (Field& field : all())
+    if (isSayable(field.value) && !isEmpty(field.value)) node.fields.push_back(std::move(field));
   return node;
 }
 
@@ -331,8 +333,7 @@ void PartState::setLight(const Fields& fields) {
   trace::LightSource& source = owner->scene.lights[index()];
   Fields others = otherFields(source.light, fields);
   for (Field& field : otherFields(source.links, fields))
-    if (field.value.isList() ? !field.value.list().empty() : !field.value.text().empty())
-      others.push_back(std::move(field));
+    if (!isEmpty(field.value)) others.push_back(std::move(field));
   trace::Scene one;
   rayfile::PartGiven said = readAgain(changed(keyword(), fields, std::move(others)), one);
   if (one.lights.size() != 1) throw Error(Error::Kind::scene, keyword() + ": expected fields of a light");

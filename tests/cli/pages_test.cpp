@@ -255,8 +255,12 @@ TEST_F(Lessons, TheHowTosWorkWhenPasted) {
     fs::create_directories(path(made));
   write("scenes-in/white.ray", kWhite);
   ASSERT_EQ(run({"white.ray", "solution/white.png", "-w", "64"}).code, 0);
+  for (const std::string also : {"spheres", "shadows"}) {  // which the page of classes names
+    fs::copy(path("solution/white.png"), path("solution/" + also + ".png"));
+    write("scenes-in/" + also + ".ray", kWhite);
+  }
   for (const char* submitted : {"handed-in", "submissions/ann"})
-    fs::copy(path("solution/white.png"), path(submitted) + "/white.png");
+    fs::copy(path("solution"), path(submitted), fs::copy_options::recursive);
   for (const fs::path& page : pagesBelow(kRoot / "docs/how-to")) {
     fs::remove(path("scene.ray"));
     ASSERT_EQ(run({"new", "scene.ray"}).code, 0);
