@@ -309,8 +309,9 @@ def test_the_stub_has_every_public_name():
 
 def test_lint_save_and_open(tmp_path):
     scene = ball()
-    scene.lights[0].remove()
+    scene.add(tr.shapes.sphere(name="in the way", material=tr.materials.phong(diffuse=(1, 1, 1)), translate=(0, 0, 4)))
     assert any(finding.check for finding in scene.lint())
+    scene.objects[1].remove()
     scene.save(tmp_path / "ball.ray")
     again = tr.open(tmp_path / "ball.ray", width=8)
     assert again.objects[0].material.diffuse == (0.8, 0.4, 0.2)
