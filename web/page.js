@@ -39,7 +39,8 @@ const tracePage = {
   askForFiles() { element('files').click(); },
   async copyLink(path, pixel) {
     const packed = toAddress(await through(new CompressionStream('gzip'), FS.readFile(path)));
-    location.hash = 'text=' + packed + (pixel ? '&pixel=' + pixel : '');
+    const options = location.hash.slice(1).split('&').filter((part) => part && !/^(scene|text|pixel)=/.test(part));
+    location.hash = ['text=' + packed, ...options, ...(pixel ? ['pixel=' + pixel] : [])].join('&');
     try {
       await navigator.clipboard.writeText(location.href);
       say('the link is copied');

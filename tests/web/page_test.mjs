@@ -94,11 +94,12 @@ try {
   await choose('File', 'Copy link');
   await page.waitForTimeout(1500);
   const link = page.url();
-  check(/#text=[\w-]+&pixel=\d+,\d+$/.test(link), 'the link holds text and pixel: ' + link.slice(0, 60) + '... (' + link.length + ' characters)');
+  check(/#text=[\w-]+&width=300&pixel=\d+,\d+$/.test(link), 'the link holds text, options and pixel: ' + link.slice(0, 60) + '... (' + link.length + ' characters)');
   await page.goto('about:blank');
   await page.goto(link);
   await until(/^file link\.ray$/m, 'the link opens');
-  await until(/^why \S/m, 'and explains its pixel');
+  await until(/^pixel 110 113$/m, 'and its pixel is chosen');
+  await until(/^why \S/m, 'and explained');
   await shot('link');
 
   // A file of the computer.

@@ -28,7 +28,8 @@ struct MeshOperations {
 
   bool operator==(const MeshOperations&) const = default;
   bool operator<(const MeshOperations& b) const {
-    return std::tie(crease, subdivide, catmullClark, uv) < std::tie(b.crease, b.subdivide, b.catmullClark, b.uv);
+    return std::tie(crease, subdivide, catmullClark, uv) <
+           std::tie(b.crease, b.subdivide, b.catmullClark, b.uv);
   }
   bool none() const { return crease < 0 && subdivide == 0 && !uv; }
 
