@@ -9,27 +9,10 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "image/codecs/codec.h"
+#include "image/codecs/openexr.h"
 #include "image/codecs/picture_name.h"
 #include "support/exr.h"
 #include "support/folder.h"
-
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wdeprecated-copy"
-#pragma GCC diagnostic ignored "-Wunused-parameter"
-#endif
-#include <ImfChannelList.h>
-#include <ImfFrameBuffer.h>
-#include <ImfHeader.h>
-#include <ImfMultiPartOutputFile.h>
-#include <ImfOutputPart.h>
-#include <ImfPartType.h>
-#include <ImfTileDescription.h>
-#include <ImfTiledOutputPart.h>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
 
 namespace trace::exr_layers_test {
 namespace {

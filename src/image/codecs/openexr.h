@@ -1,4 +1,5 @@
-// OpenEXR's headers, without the warnings that they cause. Only codec_exr.cpp and exr_file.cpp include this.
+// OpenEXR's headers, without the warnings that they cause. In src/ only codec_exr.cpp and exr_file.cpp
+// include this.
 #pragma once
 
 #if defined(__GNUC__)
@@ -15,12 +16,15 @@
 #include <ImfInputFile.h>
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
+#include <ImfMultiPartOutputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfOutputPart.h>
 #include <ImfPartType.h>
 #include <ImfRgbaYca.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <ImfTileDescription.h>
+#include <ImfTiledOutputPart.h>
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
 #endif
