@@ -7,6 +7,7 @@
 #include "image/codecs/codec.h"
 #include "image/development/tone.h"
 #include "program.h"
+#include "support/paths.h"
 
 namespace trace::test {
 namespace {
@@ -195,6 +196,16 @@ TEST_F(Silence, ANoisyPictureIsToldWithTheSamplesThatHalveItsError) {
   EXPECT_FALSE(contains(
       run({"noisy.ray", "noisy.png", "-w", "48", "--integrator", "path", "--spp", "4", "--denoise"}).err,
       "noisy:"));
+}
+
+TEST_F(Silence, FirefliesAreToldWithTheLimitThatRemovesThem) {
+  const auto errorsOf = [&](const char* limit) {
+    return run({test::sourceFolder() + "/scenes/prism.ray", "prism.png", "-w", "64", "--spp", "8",
+                "--integrator", "path", "--firefly-limit", limit})
+        .err;
+  };
+  EXPECT_TRUE(contains(errorsOf("0"), "which --firefly-limit 8 removes"));
+  EXPECT_FALSE(contains(errorsOf("8"), "fireflies"));
 }
 
 }  // namespace
