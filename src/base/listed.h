@@ -16,10 +16,10 @@ namespace trace {
 /// The members of a row that every list has; a list's own row is derived from it.
 template <class AnyField>
 struct ListedRow {
-  std::string_view keyword;  ///< as in scene files
-  std::string_view help;     ///< one sentence, no full stop
-  std::size_t index;         ///< in the table
-  std::shared_ptr<void> (*make)();
+  std::string_view keyword;         ///< as in scene files
+  std::string_view help;            ///< one sentence, no full stop
+  std::size_t index;                ///< in the table
+  std::shared_ptr<void> (*make)();  ///< with the defaults, which all share until they are edited
   std::shared_ptr<void> (*copy)(const void* value);
   bool (*equal)(const void* a, const void* b);
   std::vector<AnyField> (*fields)(void* value);
@@ -30,7 +30,10 @@ struct ListedRow {
     return {Struct::kKeyword,
             Struct::kHelp,
             index,
-            []() -> std::shared_ptr<void> { return std::make_shared<Struct>(); },
+            []() -> std::shared_ptr<void> {
+              static const std::shared_ptr<void> usual = std::make_shared<Struct>();
+              return usual;
+            },
             [](const void* at) -> std::shared_ptr<void> {
               return std::make_shared<Struct>(*static_cast<const Struct*>(at));
             },

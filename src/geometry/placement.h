@@ -46,7 +46,8 @@ class Placement {
   SurfacePoint outOf(const SurfacePoint& in, const Product& product, const Turned& turned) const {
     SurfacePoint out;
     out.point = product(outFromIn_, in.point) + outFromIn_.offset;
-    out.error = (product(size_, in.error) + (product(rounding_, abs(in.point)) + rounding_.offset)) *
+    const Affine size = absolute(outFromIn_);
+    out.error = (product(size, in.error) + (product(rounding_, abs(in.point)) + rounding_.offset)) *
                 (1 + gammaError(24));
     const Vec3 normal = normalize(turned(in.normal));
     out.normal = normal;
@@ -60,7 +61,6 @@ class Placement {
   /// It scales along the axes and moves, as most do: then two thirds of a product are sums of zeros, which
   /// are left out.
   bool aligned_ = false;
-  Affine size_;      ///< outFromIn, every entry made positive
   Affine rounding_;  ///< rounding at a place p: at most that of |p|
 };
 
@@ -75,8 +75,7 @@ inline Placement::Placement(const Affine& outFromIn, const Affine& inFromOut)
     return m == only;
   };
   aligned_ = scales(outFromIn) && scales(inFromOut);
-  size_ = absolute(outFromIn);
-  const Affine there = size_, back = absolute(inFromOut), thereAndBack = back * there;
+  const Affine there = absolute(outFromIn), back = absolute(inFromOut), thereAndBack = back * there;
   for (int i = 0; i < 3; ++i)
     rounding_.row[i] = there.row[i] * gammaError(4) + transposed(thereAndBack, there.row[i]) * gammaError(8);
   rounding_.offset = there.offset * gammaError(4) + linear(there, thereAndBack.offset) * gammaError(8);

@@ -16,14 +16,14 @@ const Bsdf& World::clear() {
   return kClear;
 }
 
-MaterialMix World::mixOfParts(const Instance& instance, const Found& found) {
+MaterialMix World::mixOfParts(const Instance& instance, const Found& found) const {
   if (instance.mesh) {
     const MeshData& data = instance.mesh->data();
     const Triangle& t = data.triangles[found.part];
     const Real* b = found.triangle.b;
     return {{data.materials[t[0]], data.materials[t[1]], data.materials[t[2]]}, {b[0], b[1], b[2]}, 3};
   }
-  return instance.shape.material(static_cast<std::int64_t>(found.part), instance.material);
+  return shapes_[instance.form].material(static_cast<std::int64_t>(found.part), instance.material);
 }
 
 Bsdf World::mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix& m,
@@ -41,7 +41,7 @@ Bsdf World::mixedAt(std::uint32_t object, std::uint64_t part, const MaterialMix&
 bool World::sendsOnOf(const Instance& instance, bool varnish, bool follow) const {
   std::vector<std::uint32_t> used{instance.material};
   if (!instance.mesh) {
-    instance.shape.addMaterials(used);
+    shapes_[instance.form].addMaterials(used);
   } else {
     used.insert(used.end(), instance.mesh->data().materials.begin(), instance.mesh->data().materials.end());
     std::sort(used.begin(), used.end());
@@ -115,7 +115,8 @@ Filling World::filling(const Hit& hit, const WhittedTerms& terms, const Settings
   };
   const Instance& instance = instanceOf(hit.object);
   if (!nestedGlass_ || !instance.mixed || instance.mesh) return filled(terms, hit.materials.material[0]);
-  const MaterialMix inside = instance.shape.inside(static_cast<std::int64_t>(hit.part), instance.material);
+  const MaterialMix inside =
+      shapes_[instance.form].inside(static_cast<std::int64_t>(hit.part), instance.material);
   return filled(whitted(*shade(hit.object, hit.part, inside, hit.surface, nullptr)), inside.material[0]);
 }
 

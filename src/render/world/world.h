@@ -18,7 +18,6 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_tree.h"
 #include "geometry/placement.h"
-#include "geometry/solve/approach.h"
 #include "geometry/surface_slopes.h"
 #include "geometry/traced.h"
 #include "render/world/hit.h"
@@ -201,11 +200,11 @@ class World {
     return object < plain_ ? objects_[object].bounds : placedBounds(object);
   }
   /// In its own space, perhaps with room left.
-  Box3 ownBoundsOf(std::uint32_t object) const { return instanceOf(object).shape.bounds(); }
+  Box3 ownBoundsOf(std::uint32_t object) const { return shapes_[instanceOf(object).form].bounds(); }
   /// The object's shape, "" of one that is left out.
   std::string_view shapeOf(std::uint32_t object) const {
     const Instance& o = instanceOf(object);
-    return o.bounds.empty() ? "" : o.shape.type().keyword;
+    return o.bounds.empty() ? "" : shapes_[o.form].type().keyword;
   }
   /// All of it is made of one material, without textures.
   bool isUniform(std::uint32_t object) const {
@@ -283,9 +282,7 @@ class World {
   friend World compile(const Scene&, const Settings&, Messages&, const Compiled*);
   class Earlier;
 
-  struct Instance {  // what queries need stands together
-    explicit Instance(TracedShape traced) : shape(std::move(traced)) {}
-
+  struct Instance {          // what queries need stands together
     std::uint32_t kind = 0;  ///< the index of the shape's type
     bool opaque = true;
     bool blocks = true;  ///< opaque, and all of it casts a shadow
@@ -295,11 +292,10 @@ class World {
     bool mapped = true;  ///< pictures lie on it by u and v; else they show one corner
     bool holds = false;  ///< a ray may start inside of it: light passes it, and it encloses space
     std::uint32_t material = 0;
+    std::uint32_t form = 0;  ///< index into shapes_ and Forms, which objects share: a million balls have one
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
     Placement placement;
-    Approach approach;
     Box3 bounds;
-    TracedShape shape;
   };
 
   /// Placements of a group, in the world or in another group.
@@ -396,7 +392,7 @@ class World {
   MaterialMix mixAt(const Instance& instance, const Found& found) const {
     return instance.mixed ? mixOfParts(instance, found) : MaterialMix::only(instance.material);
   }
-  [[gnu::noinline]] static MaterialMix mixOfParts(const Instance& instance, const Found& found);
+  [[gnu::noinline]] MaterialMix mixOfParts(const Instance& instance, const Found& found) const;
   /// On an object of objects_; the ray is in the space that it stands in.
   SurfacePoint surfaceOn(std::uint32_t object, const Ray& ray, const Found& found) const;
   [[gnu::noinline]] SurfacePoint placedSurface(const Ray& ray, const Found& found) const;
@@ -419,15 +415,16 @@ class World {
   struct Forms;  ///< complete in world_queries.cpp
   std::optional<Lamp> nearestLamp(const Ray& ray, Real t) const;
   void addLights(const Scene& scene, const Settings& settings, Messages& messages);
-  /// Takes the forms out of the shapes of all objects, to lie side by side.
+  /// Takes the forms out of all shapes, to lie side by side.
   void collectForms();
 
   std::vector<Instance> objects_;  ///< those of the scene, then those of its groups
   std::uint32_t plain_ = 0;        ///< how many are no part of a group
   std::vector<Group> groups_;
-  std::vector<Uses> uses_;              ///< placements in the world
-  bool placedHold_ = false;             ///< some placed object holds rays
-  std::shared_ptr<const Forms> forms_;  ///< forms of each object
+  std::vector<Uses> uses_;   ///< placements in the world
+  bool placedHold_ = false;  ///< some placed object holds rays
+  std::vector<TracedShape> shapes_;
+  std::shared_ptr<const Forms> forms_;  ///< of shapes_
   std::shared_ptr<const Bvh> bvh_;
   std::vector<std::uint32_t> always_;  ///< objects that every ray may hit: those infinite, which no
                                        ///< hierarchy can hold; where there is no tree, all

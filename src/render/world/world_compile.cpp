@@ -1,6 +1,7 @@
 // A World of a Scene: hierarchies, displaced meshes, materials as the settings want them. What an edit left
 // alone is taken over from the world before.
 #include <algorithm>
+#include <array>
 #include <map>
 #include <tuple>
 
@@ -78,10 +79,10 @@ class World::Earlier {
     materials_ = shownAs(before->scene.materials, before->settings);
     for (std::size_t i = 0; i < old_.size(); ++i) {
       const Instance& instance = before->world.objects_[i];
-      if (const auto data = instance.shape.mesh(); data && instance.mesh)
+      if (const auto data = shapeOf(instance).mesh(); data && instance.mesh)
         trees_.of(data.get(), Displacement(*data, instance.material, materials_)) = instance.mesh;
-      instance.shape.addMeshTrees(operandTrees_);
     }
+    for (const TracedShape& shape : before->world.shapes_) shape.addMeshTrees(operandTrees_);
   }
 
   /// Its object with the same shape as object i has now: the one at the same place in the list, or where that
@@ -92,6 +93,9 @@ class World::Earlier {
       if (j < old_.size() && old_[j]->shape == objects_[i]->shape) return &before_->world.objects_[j];
     return nullptr;
   }
+
+  /// The shape of an object of that World.
+  const TracedShape& shapeOf(const Instance& instance) const { return before_->world.shapes_[instance.form]; }
 
   /// The hierarchy of the mesh, which is that of `same` if that is not null, displaced so; null if it has to
   /// be made.
@@ -173,6 +177,25 @@ std::vector<std::uint32_t> kindsOf(const std::vector<Material>& materials, const
   return kinds;
 }
 
+/// The last shape of each type, with its index in World::shapes_: objects with one shape mostly follow one
+/// another.
+class LastShapes {
+ public:
+  std::optional<std::uint32_t> indexOf(const Shape& shape) const {
+    const Last& last = last_[shape.type().index];
+    return last.shape && *last.shape == shape ? std::optional(last.index) : std::nullopt;
+  }
+  /// The shape must outlive this.
+  void add(const Shape& shape, std::uint32_t index) { last_[shape.type().index] = {&shape, index}; }
+
+ private:
+  struct Last {
+    const Shape* shape = nullptr;
+    std::uint32_t index = 0;
+  };
+  std::array<Last, kMostShapeTypes> last_{};
+};
+
 void warnOfUndisplaced(const std::vector<const Object*>& objects, Messages& messages) {
   if (objects.empty()) return;
   const std::string more =
@@ -242,6 +265,9 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   LeftOut leftOut("this object");
   std::vector<Box3> boxes;
   const std::vector<const Object*> all = allObjects(scene);
+  world.objects_.reserve(all.size());
+  boxes.reserve(scene.objects.size());
+  LastShapes lastShapes;
   world.plain_ = static_cast<std::uint32_t>(scene.objects.size());
   Work work("building the objects", static_cast<std::int64_t>(all.size()));
   for (const Object* at : all) {
@@ -249,7 +275,15 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     const bool inGroup = world.objects_.size() >= scene.objects.size();
     work.reached(static_cast<std::int64_t>(boxes.size()));
     const World::Instance* same = earlier.sameShape(static_cast<std::uint32_t>(world.objects_.size()));
-    World::Instance instance(same ? same->shape : prepared(object, earlier.operandTrees()));
+    World::Instance instance;
+    if (const auto form = lastShapes.indexOf(object.shape)) {
+      instance.form = *form;
+    } else {
+      instance.form = static_cast<std::uint32_t>(world.shapes_.size());
+      world.shapes_.push_back(same ? earlier.shapeOf(*same) : prepared(object, earlier.operandTrees()));
+      lastShapes.add(object.shape, instance.form);
+    }
+    const TracedShape& shape = world.shapes_[instance.form];
     instance.kind = static_cast<std::uint32_t>(object.shape.type().index);
     bool inRange = isInRange(object.worldFromObject);
     const bool flat = inRange && !invertible(object.worldFromObject),
@@ -269,7 +303,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       messages.warn(object.place, "the object's transform squeezes it flat, so it is left out");
     std::vector<std::uint32_t> used{object.material};  // materials used by all its parts
     Box3 box;
-    if (const auto shared = instance.shape.mesh()) {
+    if (const auto shared = shape.mesh()) {
       const Displacement displacement(*shared, object.material, materials);
       auto& tree = trees.of(shared.get(), displacement);
       if (!tree) tree = earlier.tree(same, *shared, displacement);
@@ -291,11 +325,10 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
         messages.warn(object.place, "the texture of its displacement lies in u and v, which the mesh lacks",
                       "uv = spherical, cylindrical, planar or cubic in the mesh makes them");
     } else {
-      box = instance.shape.bounds();
-      instance.approach = Approach(box);
-      instance.convex = instance.shape.convex();
-      instance.mixed = instance.shape.ofSeveralMaterials();
-      instance.shape.addMaterials(used);
+      box = shape.bounds();
+      instance.convex = shape.convex();
+      instance.mixed = shape.ofSeveralMaterials();
+      shape.addMaterials(used);
       if (std::any_of(used.begin(), used.end(), [&](std::uint32_t m) {
             return m != MaterialMix::kClear && materials.at(m).displacement != 0;
           }))
@@ -310,7 +343,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                         return m == MaterialMix::kClear || materials[m].castsShadow;
                       });
     instance.solid = instance.mesh ? !world.nestedGlass_ || instance.opaque || closed(instance.mesh->data())
-                                   : instance.shape.solid();
+                                   : shape.solid();
     inRange = inRange && isInRange(box) && isInRange(materials[object.material]) &&
               (box.unbounded() || isInRange(instance.placement.outFromIn() * box));
     if (!inRange) leftOut.add(object.place);  // stays as well
@@ -319,7 +352,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     const Material& material = materials[object.material];
     const bool fills = material.mediumDensity > 0 && isThere && !box.unbounded() && !inGroup;
     const bool encloses = isThere && !instance.opaque && (world.nestedGlass_ || fills || settings.fog > 0) &&
-                          (instance.mesh ? closed(instance.mesh->data()) : instance.shape.solid());
+                          (instance.mesh ? closed(instance.mesh->data()) : shape.solid());
     const bool cloud = fills && encloses && material.opacity == 0 &&
                        std::all_of(used.begin(), used.end(), [&](auto m) { return m == object.material; });
     if (fills && encloses)

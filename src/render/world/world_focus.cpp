@@ -75,7 +75,7 @@ Vec3 World::seenPlaceOf(const std::string& name, const Scene& scene) const {
     if (!scene.objects[i].name.empty()) names.insert(scene.objects[i].name);
     if (scene.objects[i].name != name) continue;
     named.push_back(i);
-    const Box3 box = objects_[i].placement.outFromIn() * objects_[i].shape.bounds();
+    const Box3 box = objects_[i].placement.outFromIn() * shapes_[objects_[i].form].bounds();
     endless = endless || box.unbounded();
     if (!box.unbounded()) around.extend(box);
   }

@@ -9,13 +9,13 @@
 namespace trace {
 
 struct World::Forms {
-  std::vector<AnyForm> all;
+  std::vector<TracedShape::Held> all;
 };
 
 void World::collectForms() {
   auto forms = std::make_shared<Forms>();
-  forms->all.reserve(objects_.size());
-  for (const Instance& instance : objects_) forms->all.push_back(instance.shape.held().form);
+  forms->all.reserve(shapes_.size());
+  for (const TracedShape& shape : shapes_) forms->all.push_back(shape.held());
   forms_ = std::move(forms);
 }
 
@@ -128,11 +128,11 @@ inline void World::crossingsOfShape(std::uint32_t object, const Ray& ray, const 
                                     QueryCounts<Nodes>& counts, const Visit& visit) const {
   const Instance& instance = objects_[object];
   ++counts.tests[instance.kind];
-  match(forms_->all[object],
-        Overloaded{[](const Mesh&) {},
-                   [&](const auto& form) {
-                     visitCrossings(form, instance.approach, ray, Range{0, tMost}, visit);
-                   }});
+  const TracedShape::Held& held = forms_->all[instance.form];
+  match(held.form, Overloaded{[](const Mesh&) {},
+                              [&](const auto& form) {
+                                visitCrossings(form, held.approach, ray, Range{0, tMost}, visit);
+                              }});
 }
 
 template <class Nodes>
@@ -160,16 +160,16 @@ SurfacePoint World::surfaceOn(std::uint32_t object, const Ray& worldRay, const F
   const Instance& instance = objects_[object];
   const Placement& placement = instance.placement;
   const Ray ray = placement.moved() ? placement.into(worldRay) : worldRay;
-  const SurfacePoint s =
-      match(forms_->all[object],
-            Overloaded{[&](const Mesh&) {
-                         return trace::surface(instance.mesh->data(), static_cast<std::uint32_t>(found.part),
-                                               found.triangle);
-                       },
-                       [&](const auto& shape) {
-                         const Crossing crossing{found.t, static_cast<std::int64_t>(found.part)};
-                         return surfaceOf(shape, instance.approach, ray, crossing);
-                       }});
+  const TracedShape::Held& held = forms_->all[instance.form];
+  const SurfacePoint s = match(
+      held.form, Overloaded{[&](const Mesh&) {
+                              return trace::surface(instance.mesh->data(),
+                                                    static_cast<std::uint32_t>(found.part), found.triangle);
+                            },
+                            [&](const auto& shape) {
+                              const Crossing crossing{found.t, static_cast<std::int64_t>(found.part)};
+                              return surfaceOf(shape, held.approach, ray, crossing);
+                            }});
   return placement.moved() ? placement.outOf(s) : s;
 }
 

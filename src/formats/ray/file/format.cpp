@@ -89,6 +89,7 @@ class Reader {
     for (const Syntax::Remark& remark : syntax_.remarks())
       messages_.warn(syntax_.place(remark.offset), remark.what, remark.hint);
     const Item root = syntax_.root();
+    scene_.objects.reserve(root.count());
     auto item = root.begin();
     for (readHeader(item, root.end()); item != root.end(); ++item) topLevel(*item);
   }

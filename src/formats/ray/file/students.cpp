@@ -12,6 +12,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -687,16 +688,18 @@ class Translator {
 
 /// A look that costs little: a scene of a million numbers is not copied in vain.
 bool mayBeTheirs(const Syntax& syntax) {
-  static constexpr std::array<std::string_view, 11> kNodes{
-      "csg",   "torus_knot", "moving_sphere", "sphere_light", "hyperbolic", "metaball",
-      "fluid", "emitter",    "shape_light",   "skybox",       "area_light"};
+  static const std::unordered_set<std::string_view> theirs = [] {
+    std::unordered_set<std::string_view> words{"csg",         "torus_knot", "moving_sphere", "sphere_light",
+                                               "hyperbolic",  "metaball",   "fluid",         "emitter",
+                                               "shape_light", "skybox",     "area_light"};
+    const auto add = [&](const auto& more) { words.insert(more.begin(), more.end()); };
+    add(kObjectFields), add(kMaterialFields), add(kSpotFields), add(kCameraFields);
+    return words;
+  }();
   const std::span<const Node> nodes = syntax.nodes();
   for (std::uint32_t i = 0; i + 1 < nodes.size(); ++i) {
     if (nodes[i].kind != Kind::entry && nodes[i].kind != Kind::call) continue;
-    const std::string_view key = Item(syntax, i).key();
-    if (isListed(key, kNodes) || isListed(key, kObjectFields) || isListed(key, kMaterialFields) ||
-        isListed(key, kSpotFields) || isListed(key, kCameraFields))
-      return true;
+    if (theirs.count(Item(syntax, i).key()) > 0) return true;
   }
   return false;
 }

@@ -362,14 +362,15 @@ std::uint32_t Materials::index(const NotedMaterial& material) {
 std::uint32_t Materials::index(const Material& material) {
   markUsed(material.name);
   std::vector<Material>& all = findings_.scene().materials;
+  if (last_ < all.size() && all[last_] == material) return last_;
   const std::size_t hash = hashOf(material);
   const auto [first, last] = byHash_.equal_range(hash);
   for (auto found = first; found != last; ++found)
-    if (all[found->second] == material) return found->second;
-  const auto added = static_cast<std::uint32_t>(all.size());
+    if (all[found->second] == material) return last_ = found->second;
+  last_ = static_cast<std::uint32_t>(all.size());
   all.push_back(material);
-  byHash_.emplace(hash, added);
-  return added;
+  byHash_.emplace(hash, last_);
+  return last_;
 }
 
 }  // namespace trace::rayfile

@@ -19,7 +19,7 @@ std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\
 Syntax::Syntax(std::string file, std::string_view source) {
   sources_.emplace_back().file = std::move(file);
   sources_.back().text = source;
-  nodes_.reserve(source.size() / 6);  // a mesh has numbers of five characters and a separator, and brackets
+  nodes_.reserve(source.size() / 4);  // more than most files need; what is not used takes no memory
   parse(sources_.back());
 }
 
@@ -49,8 +49,7 @@ void Syntax::parse(Source& source) {
     remark({slip.offset, "expected a number, found \"" + slip.text + "\": it is read as " + slip.readAs, ""});
 }
 
-const Syntax::Source& Syntax::sourceOf(std::size_t offset) const {
-  if (sources_.size() == 1) return sources_.front();
+const Syntax::Source& Syntax::includedSource(std::size_t offset) const {
   const auto after = std::upper_bound(sources_.begin(), sources_.end(), offset,
                                       [](std::size_t at, const Source& source) { return at < source.base; });
   return *(after - 1);

@@ -108,7 +108,8 @@ class Syntax {
   std::string_view source() const { return sources_.front().text; }
   /// The position of the node in its file.
   std::string_view textOf(const Node& node) const {
-    return sourceOf(node.offset).text.substr(node.offset - sourceOf(node.offset).base, node.length);
+    const Source& source = sourceOf(node.offset);
+    return source.text.substr(node.offset - source.base, node.length);
   }
   /// Is there a call of kKey?
   bool hasKeys() const { return hasKeys_; }
@@ -192,7 +193,11 @@ class Syntax {
     std::size_t number, start, end;  ///< from the file's own start
   };
   void parse(Source& source);
-  const Source& sourceOf(std::size_t offset) const;
+  const Source& sourceOf(std::size_t offset) const {
+    const Source& file = sources_.front();
+    return offset <= file.text.size() ? file : includedSource(offset);
+  }
+  const Source& includedSource(std::size_t offset) const;
   static Line line(const Source& source, std::size_t at);
   Place place(std::size_t offset, std::size_t longestLine) const;
 
