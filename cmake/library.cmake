@@ -90,7 +90,7 @@ function(trace_install_library)
   file(RELATIVE_PATH pkgPrefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
   configure_file(${PROJECT_SOURCE_DIR}/cmake/library.pc.in ${PROJECT_BINARY_DIR}/${TRACE_LIBRARY_NAME}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${TRACE_LIBRARY_NAME}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/cpp DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT dev)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/c ${PROJECT_SOURCE_DIR}/examples/cpp DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT dev)
   if(TARGET trace_python)
     set(pythonDir ${CMAKE_INSTALL_LIBDIR}/python3/dist-packages)
     if(CMAKE_INSTALL_LIBDIR MATCHES "^lib/")  # Debian's own Python looks beside the folder of the architecture

@@ -150,7 +150,7 @@ void letLightsReach(Scene& scene, const KindGiven& given, const Box3& seen) {
     Color& color = *editableValue<Color>(light, "color");
     if (square > 0 && std::isfinite(square)) color = color * square;
   }
-  scene.kindDefaults.emplace_back("lights that reach what is looked at");
+  scene.kindDefaults.emplace_back("the strength of the lights");
 }
 
 /// The light around a mesh that is rendered by itself: grey, lighter from above.

@@ -87,9 +87,8 @@ void dropIdle(Settings& settings, std::initializer_list<std::span<const Choice>>
   const Settings usual;
   const bool chains = hasTrait(settings, Trait::byChains);
   const auto isFree = [&](std::string_view option) { return !isChosen(option, layers); };
-  // How exact a light image is is not known, so that nothing can be denoised by it.
-  if ((hasLightImage(settings) || chains || settings.spp < kFewest) && isFree("denoise"))
-    settings.denoise = usual.denoise;
+  // How exact a picture by chains is is not known, so that it cannot be denoised.
+  if ((chains || settings.spp < kFewest) && isFree("denoise")) settings.denoise = usual.denoise;
   if ((chains || settings.spp == 1) && isFree("noise-target")) settings.noiseTarget = usual.noiseTarget;
   const bool limits = findOption("firefly-limit").concerns(settings) && !changesPaths(settings);
   if (!limits && isFree("firefly-limit")) settings.fireflyLimit = usual.fireflyLimit;

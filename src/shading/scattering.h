@@ -15,6 +15,7 @@
 #include "base/field.h"
 #include "math/color.h"
 #include "math/vec.h"
+#include "math/warp.h"
 #include "shading/frame.h"
 #include "shading/interior.h"
 #include "shading/rules.h"
@@ -102,8 +103,9 @@ inline Vec3 sphericalDirection(Real cosTheta, Real phi) {
 }
 /// Around the normal with density cos / pi.
 inline Vec3 cosineDirection(Vec2 u) {
-  const Real r = std::sqrt(u.x), phi = 2 * kPi * u.y;
-  return {r * std::cos(phi), r * std::sin(phi), std::sqrt(max(0, 1 - u.x))};
+  const Real r = std::sqrt(u.x);
+  const Vec2 circle = onCircle(u.y);
+  return {r * circle.x, r * circle.y, std::sqrt(max(0, 1 - u.x))};
 }
 inline Real cosineDensity(const Vec3& light) { return max(0, light.z) / kPi; }
 /// Around the axis z with density (n + 1) / (2 pi) cos^n.

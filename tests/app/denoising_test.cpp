@@ -53,6 +53,45 @@ TEST(Denoising, CornellBecomesMoreExact) {
   EXPECT_GT(meanChange(change(noisy, clean)), 0.5);
 }
 
+TEST(Denoising, EveryIntegratorThatTakesSamplesBecomesMoreExact) {
+  for (const char* integrator : {"direct", "photon", "bdpt"}) {
+    const auto with = [&](const char* spp) {
+      return rendered(kCornell, {{"width", "32", {}},
+                                 {"sampling", "sobol", {}},
+                                 {"depth", "4", {}},
+                                 {"integrator", integrator, {}},
+                                 {"spp", spp, {}},
+                                 {"denoise", "on", {}}});
+    };
+    const Picture truth = with(kSanitized ? "64" : "256")->film().picture();
+    const auto session = with("16");
+    const double before = relativeError(session->film().picture(), truth),
+                 after = relativeError(session->picture(), truth);
+    EXPECT_LT(after, before) << integrator;
+    EXPECT_GT(after, 0) << integrator;
+  }
+}
+
+/// The halves are those of the samples and of what they bring to other pixels: their mean is the picture.
+TEST(Denoising, HalvesOfALightImageAreThePicture) {
+  const auto session = rendered(kCornell, {{"width", "24", {}},
+                                           {"spp", "16", {}},
+                                           {"depth", "3", {}},
+                                           {"integrator", "bdpt", {}},
+                                           {"denoise", "on", {}}});
+  const Halves halves = session->film().halves();
+  const Picture picture = session->film().picture();
+  Color apart;
+  for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+    EXPECT_EQ(halves.share[i], 0.5);
+    const Color mean = (halves.first.pixels[i] + halves.second.pixels[i]) * 0.5;
+    EXPECT_NEAR(mean.g, picture.pixels[i].g, 1e-9 * (1 + picture.pixels[i].g));
+    const Color d = halves.first.pixels[i] + halves.second.pixels[i] * -1;
+    apart += Color(std::abs(d.r), std::abs(d.g), std::abs(d.b));
+  }
+  EXPECT_GT(apart.g, 0);
+}
+
 TEST(Denoising, ThePassChangeIsWhatIsAddedToThePicture) {
   const Folder folder;
   const auto session = rendered(kCornell, {{"width", "24", {}},
@@ -72,14 +111,19 @@ TEST(Denoising, ThePassChangeIsWhatIsAddedToThePicture) {
 }
 
 TEST(Denoising, GoesOnFromWhatWasSaved) {
-  const std::vector<Choice> choices{
-      {"width", "40", {}}, {"spp", "16", {}}, {"depth", "3", {}}, {"denoise", "on", {}}};
-  const auto whole = rendered(kCornell, choices);
-  Session back;
-  back.open(kCornell, choices);
-  back.build();
-  back.film().restore(whole->film().saved());
-  EXPECT_EQ(back.picture(), whole->picture());
+  for (const char* integrator : {"path", "bdpt"}) {
+    const std::vector<Choice> choices{{"width", "40", {}},
+                                      {"spp", "16", {}},
+                                      {"depth", "3", {}},
+                                      {"integrator", integrator, {}},
+                                      {"denoise", "on", {}}};
+    const auto whole = rendered(kCornell, choices);
+    Session back;
+    back.open(kCornell, choices);
+    back.build();
+    back.film().restore(whole->film().saved());
+    EXPECT_EQ(back.picture(), whole->picture()) << integrator;
+  }
 }
 
 TEST(Denoising, OnePixelPerSampleTellsNothing) {

@@ -15,10 +15,10 @@ for component in library dev; do
 done
 library="$(find usr -name 'libtraceray.so.*' -type f)"
 [[ -f "$library" ]] || fail "no libtraceray.so.VERSION"
-find usr/include -type f | sed 's|^usr/include/||' >log
-[[ "$(cat log)" == traceray/traceray.h ]] || fail "headers are installed that are not public"
+find usr/include -type f | sed 's|^usr/include/||' | sort >log
+[[ "$(cat log)" == "traceray/traceray.h"$'\n'"traceray/traceray_c.h" ]] || fail "headers are installed that are not public"
 nm -DC --defined-only "$library" | sed -E 's/^[0-9a-f]* . //' |
-  grep -vE '^(typeinfo (name )?for |vtable for )?traceray::' >log && fail "these names are seen outside:"
+  grep -vE '^((typeinfo (name )?for |vtable for )?traceray::|traceray_[a-z_]+$)' >log && fail "these names are seen outside:"
 nm -DC --defined-only "$library" | grep -q 'traceray::Scene::render' || fail "the library shows no Scene::render"
 
 # The header compiles alone, with warnings as errors, and needs nothing of the floors.
@@ -46,6 +46,15 @@ awk '/^```/ { on = /^```cmake$/; next } on' "$checkout/docs/how-to/from-cpp.md" 
 diff "$checkout/examples/cpp/polished_to_rough.cpp" pasted/polished_to_rough.cpp >log || fail "docs/how-to/from-cpp.md shows another program"
 cmake -S pasted -B pasted/build -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_PREFIX_PATH="$folder/usr" >log 2>&1 &&
   cmake --build pasted/build >log 2>&1 || fail "building what docs/how-to/from-cpp.md says"
+# The face for C: a program in C99, and each function that the header declares is there.
+cc -std=c99 -Wall -Wextra -Wpedantic -Werror "$checkout/examples/c/open_and_explain.c" -o open_and_explain $flags \
+  -Wl,-rpath,"$(dirname "$folder/$library")" >log 2>&1 || fail "compiling the example in C"
+./open_and_explain "$scene" c.png >log 2>&1 && [[ -s c.png ]] && grep -q '^pixel 32,20' log || fail "open_and_explain"
+! ./open_and_explain no_such.ray c.png >log 2>&1 || fail "a missing scene is rendered from C"
+grep -q 'no_such.ray' log || fail "the message does not name the file"
+comm -23 <(grep -oE 'traceray_[a-z_]+\(' "$checkout/include/traceray/traceray_c.h" | tr -d '(' | sort -u) \
+  <(nm -D --defined-only "$library" | sed 's/.* //' | sort -u) >log
+[[ ! -s log ]] || fail "declared for C and not there:"
 # What goes wrong is said as the program says it.
 ! examples/open_and_render "$checkout/tests/corpus/ray/no_such.ray" x.png >log 2>&1 || fail "a missing scene is rendered"
 grep -q 'no_such.ray' log || fail "the message does not name the file"

@@ -179,6 +179,26 @@ TEST(RayErrors, OfTheKindTrace1SpeakOfItsForms) {
             std::string::npos);
 }
 
+TEST(RayErrors, WhatOtherProgramsSayInAnotherWayHasAHint) {
+  const auto holds = [](const std::string& text, const std::string& hint) {
+    EXPECT_NE(errorsOfFile("Trace 1\n" + text).find("[" + hint), std::string::npos)
+        << text << "\n"
+        << errorsOfFile("Trace 1\n" + text);
+  };
+  for (const char* size : {"radius", "size", "height"})
+    holds("box { " + std::string(size) + " = 2 }", "scale(2) { box { } } makes it twice as large");
+  holds("cone { position = (1, 2, 3) }", "translate(1, 2, 3) { cone { } } puts it there");
+  holds("torus { color = (1, 0, 0) }", "material = { diffuse = (red, green, blue) } is its colour");
+  holds("sphere { material = { colr = (1, 0, 0) } }", "diffuse = (red, green, blue) is its colour");
+  holds("sphere { material = { diffuse: (1, 0, 0) } }", "a field gets its value by =");
+  holds("sphere { material = { library = red marble } }",
+        "a name of several words stands in quotation marks: \"red marble\"");
+  holds("rectangle_light { direction = (0, -1, 0) }", "u and v are its edges");
+  holds("let n = 4\nn = n + 1", "let n = ... gives a name its value, once");
+  EXPECT_EQ(errorsOfFile("Trace 1\nrotate y { box { } }\nbox { }"),
+            "2:10: expected an angle, as in rotate y 30 deg { }, found \"{\"");
+}
+
 TEST(RayErrors, AreReportedTogether) {
   EXPECT_EQ(errorsOf("cone { height = a; }\nsphere { material = b; }\nfoo"),
             "2:17: height: expected a number, found \"a\"\n"

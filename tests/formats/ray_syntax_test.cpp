@@ -91,11 +91,12 @@ TEST(RaySyntax, TakesNumbersInEveryNotation) {
 TEST(RaySyntax, TellsWhatIsWrongAndWhere) {
   const std::pair<const char*, const char*> cases[] = {
       {"sphere {\n  a = 1;\n",
-       "2:9: expected \"}\", found the end of the file [the \"{\" at line 1 is never closed]"},
+       "2:9: expected \"}\", found the end of the file [the \"{\" at line 1, column 8 is never closed]"},
       {"scale(2,\nsphere {}",
-       "2:10: expected \")\", found the end of the file [the \"(\" at line 1 is never closed]"},
-      {"scale(2, sphere { )", "1:19: expected \"}\", found \")\" [the \"{\" at line 1 is not closed yet]"},
-      {"a\n( 1 }", "2:5: expected \")\", found \"}\" [the \"(\" at line 2 is not closed yet]"},
+       "2:10: expected \")\", found the end of the file [the \"(\" at line 1, column 6 is never closed]"},
+      {"scale(2, sphere { )",
+       "1:19: expected \"}\", found \")\" [the \"{\" at line 1, column 17 is not closed yet]"},
+      {"a\n( 1 }", "2:5: expected \")\", found \"}\" [the \"(\" at line 2, column 1 is not closed yet]"},
       {"sphere {} }", "1:11: found \"}\", which closes nothing"},
       {"\n )", "2:2: found \")\", which closes nothing"},
       {"a = ;", "1:5: expected a value after \"=\", found \";\""},

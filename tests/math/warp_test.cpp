@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "math/spherical_rectangle.h"
 
@@ -16,6 +17,19 @@ template <class Visit>
 void forGrid(Visit&& visit) {
   for (int i = 0; i < kSide; ++i)
     for (int j = 0; j < kSide; ++j) visit(Vec2{(i + 0.5) / kSide, (j + 0.5) / kSide});
+}
+
+TEST(Warp, CirclesAreThoseOfTheLibraryButForRounding) {
+  constexpr int kPlaces = 100000;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const Real turns = static_cast<Real>(i) / kPlaces;
+    const Vec2 p = onCircle(turns);
+    EXPECT_NEAR(p.x, std::cos(2 * kPi * turns), 0x1p-50) << turns;
+    EXPECT_NEAR(p.y, std::sin(2 * kPi * turns), 0x1p-50) << turns;
+  }
+  EXPECT_EQ(onCircle(0), (Vec2{1, 0}));
+  EXPECT_EQ(onCircle(0.25).x, 0);
+  EXPECT_EQ(onCircle(0.5).x, -1);
 }
 
 TEST(Warp, DisksAndPolygonsAreFilledEvenly) {

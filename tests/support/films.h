@@ -11,9 +11,10 @@
 
 namespace trace::test {
 
-constexpr int kFilmKinds = 6;
+constexpr int kFilmKinds = 7;
 inline const char* filmKindName(int kind) {
-  constexpr const char* kNames[kFilmKinds] = {"plain", "layers", "halves", "adaptive", "splats", "divided"};
+  constexpr const char* kNames[kFilmKinds] = {"plain",  "layers",  "halves",          "adaptive",
+                                              "splats", "divided", "halves of splats"};
   return kNames[kind];
 }
 
@@ -24,8 +25,8 @@ inline Film blankFilm(int kind) {
   const bool layered = kind == 1 || kind == 5;
   Film film(7, 5, 20, layered ? std::span(layers) : std::span<const Film::LayerKind>(), kind == 3 ? 0.05 : 0,
             4);
-  if (kind == 2) film.keepHalves();
-  if (kind == 4) film.takeSplats();
+  if (kind == 4 || kind == 6) film.takeSplats();
+  if (kind == 2 || kind == 6) film.keepHalves();
   if (kind == 5) film.divide({2, 0.1, {1, 0, 6, 5}, 0, 0});
   return film;
 }
@@ -65,7 +66,8 @@ inline void renderWave(Film& film, std::int64_t tile, std::size_t wave) {
           take(seen(x, y, film.waves()[wave].first + k));
           samples.weights.push_back(k % 5 == 4 ? -0.5 : 1);
         }
-        if (film.takesSplats()) samples.splats.push_back({6 - x, 4 - y, Color(0.25)});
+        if (film.takesSplats())
+          samples.splats.push_back({6 - x, 4 - y, Color(0.25), film.waves()[wave].first});
         samples.paths += count;
       }
   }

@@ -201,8 +201,6 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
              " changes nothing with --subdivide: a pixel is the mean of its squares");
   } else if (s.denoise && chains) {
     warn("--denoise changes nothing: the noise of a picture by chains is not known");
-  } else if (s.denoise && splats) {
-    warn("--denoise changes nothing with bdpt: the noise of its light image is not known");
   } else if (s.denoise && samplesOf(s) < 8) {
     warn(
         "--denoise changes nothing: it compares two halves of a pixel's samples, from 8 on, and --spp "

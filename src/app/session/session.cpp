@@ -40,7 +40,8 @@ class Stopwatch {
 /// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
 /// in the encoder's buffers.
 std::uint64_t bytesPerPixel(const Settings& settings, const PassNames& names) {
-  const std::uint64_t splats = hasTrait(settings, Trait::splats) ? SplatPlane::bytesPerPixel() : 0;
+  const std::uint64_t planesOfSplats = !hasTrait(settings, Trait::splats) ? 0 : settings.denoise ? 2 : 1;
+  const std::uint64_t splats = planesOfSplats * SplatPlane::bytesPerPixel();
   // Two corners and their keys, as many as a picture with edges has.
   const std::size_t ofPasses = layersOf(settings).size();
   const auto all = static_cast<std::size_t>(lightLayersOf(settings, names.groups.size()).end);

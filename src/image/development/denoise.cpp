@@ -15,6 +15,8 @@ constexpr int kRows = 16;                            // rows of a chunk
 constexpr int kNoiseReach = 4;                       // over which the noise of halves is averaged
 constexpr float kColours = 0.45f, kSurfaces = 0.6f;  // how far apart is alike still; both papers'
 constexpr float kLeastSlope = 1e-3f;                 // least slope of features, squared
+constexpr double kDarkest = 0.1;                     // surface by whose colour light is divided
+constexpr double kEnough = 10;                       // pixels of like surfaces whose mean is calm
 
 /// A picture of floats: three channels, one after the other.
 struct Plane {
@@ -119,6 +121,26 @@ struct Feature {
   }
 };
 
+/// The colour by which the light of a pixel is divided before it is averaged with that of others.
+Color surfaceColor(const Color& albedo) {
+  return {std::max(albedo.r, kDarkest), std::max(albedo.g, kDarkest), std::max(albedo.b, kDarkest)};
+}
+
+Color ratio(const Color& a, const Color& b) { return {a.r / b.r, a.g / b.g, a.b / b.b}; }
+
+/// Light over the colours of surfaces.
+Halves withoutSurfaces(const Halves& halves, const Picture& albedo) {
+  Halves light = halves;
+  for (std::size_t i = 0; i < albedo.pixels.size(); ++i) {
+    checkBudget();
+    const Color by = surfaceColor(albedo.pixels[i]);
+    light.first.pixels[i] = ratio(halves.first.pixels[i], by);
+    light.second.pixels[i] = ratio(halves.second.pixels[i], by);
+    light.variance[i] /= luminanceOf(by) * luminanceOf(by);
+  }
+  return light;
+}
+
 struct Filter {
   Filter(const Halves& halves, const NoiseGuides& guides)
       : width(halves.first.width),
@@ -126,7 +148,7 @@ struct Filter {
         share(halves.share),
         half{channelsOf(halves.first), channelsOf(halves.second)},
         noise{half[0], half[1]},
-        features{Feature(guides.albedo, 3), Feature(guides.normal, 3), Feature(guides.nearness, 1)} {
+        features{Feature(guides.normal, 3), Feature(guides.nearness, 1)} {
     constexpr double Color::*kChannels[] = {&Color::r, &Color::g, &Color::b};
     for (std::size_t c = 0; c < 3; ++c) {
       const Plane both = varianceOf(halves, kChannels[c]);
@@ -164,19 +186,35 @@ struct Filter {
   const std::vector<double>& share;
   std::array<Channels, 2> half;
   std::array<Channels, 2> noise;  ///< variances
-  std::array<Feature, 3> features;
+  std::array<Feature, 2> features;
 };
 
 void Filter::take(int y0, int y1, Picture& result) const {
   const int rows = y1 - y0;
   struct Sum {
     Color color;
-    double weight = 0;
+    double weight = 0, squares = 0;
+    void add(const Color& c, double by) {
+      color += c * by;
+      weight += by;
+      squares += by * by;
+    }
+    Color mean() const { return color / weight; }  // each has at least the pixel itself
+    double count() const { return weight * weight / squares; }
   };
-  std::vector<Sum> sums[2];
+  struct Sums {
+    Sum byColors, byAll;
+    /// So few pixels of like surfaces are calm only with others of like colours.
+    Color mean() const {
+      const double alone = std::max(0.0, (kEnough - byAll.count()) / (kEnough - 1));
+      return lerp(alone, byAll.mean(), byColors.mean());
+    }
+  };
+  std::vector<Sums> sums[2];
   for (auto& all : sums) all.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(width));
   Plane apartHere(width + 2 * kPatch, rows + 2 * kPatch), across(width, rows + 2 * kPatch);
   constexpr float kInPatch = (2 * kPatch + 1) * (2 * kPatch + 1) * 3;
+  constexpr float kTooFar = 20;  // counts less than 2e-9
   for (int dy = -kReach; dy <= kReach; ++dy)
     for (int dx = -kReach; dx <= kReach; ++dx)
       for (int which = 0; which < 2; ++which) {
@@ -198,14 +236,16 @@ void Filter::take(int y0, int y1, Picture& result) const {
             float far = 0;
             for (int i = 0; i <= 2 * kPatch; ++i) far += across.row(y - y0 + i)[x];
             far = std::max(0.0f, far / kInPatch);
-            if (far > 20) continue;  // counts less than 2e-9
-            for (const Feature& feature : features) far = std::max(far, feature.apart(x, y, u, v));
-            if (far > 20) continue;
-            const double weight = std::exp(-static_cast<double>(far));
-            Sum& sum = sums[1 - which][static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) +
-                                       static_cast<std::size_t>(x)];
-            sum.color += Color(other[0].row(v)[u], other[1].row(v)[u], other[2].row(v)[u]) * weight;
-            sum.weight += weight;
+            if (far > kTooFar) continue;
+            const Color color(other[0].row(v)[u], other[1].row(v)[u], other[2].row(v)[u]);
+            const double byColors = std::exp(-static_cast<double>(far));
+            Sums& sum = sums[1 - which][static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) +
+                                        static_cast<std::size_t>(x)];
+            sum.byColors.add(color, byColors);
+            float surfaces = far;
+            for (const Feature& feature : features) surfaces = std::max(surfaces, feature.apart(x, y, u, v));
+            if (surfaces > kTooFar) continue;
+            sum.byAll.add(color, surfaces > far ? std::exp(-static_cast<double>(surfaces)) : byColors);
           }
       }
   for (int y = y0; y < y1; ++y)
@@ -214,8 +254,7 @@ void Filter::take(int y0, int y1, Picture& result) const {
       const std::size_t at =
           static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
       const double first = share[index(x, y)];
-      const auto mean = [&](int which) { return sums[which][at].color / sums[which][at].weight; };
-      result.at(x, y) = mean(0) * first + mean(1) * (1 - first);  // each has at least itself
+      result.at(x, y) = sums[0][at].mean() * first + sums[1][at].mean() * (1 - first);
     }
 }
 
@@ -223,11 +262,14 @@ void Filter::take(int y0, int y1, Picture& result) const {
 
 Picture withoutNoise(const Halves& halves, const NoiseGuides& guides, int threads, Job& job) {
   Picture result(halves.first.width, halves.first.height);
-  const Filter filter(halves, guides);
+  const Halves light = withoutSurfaces(halves, guides.albedo);
+  const Filter filter(light, guides);
   parallelChunks((result.height + kRows - 1) / kRows, threads, job, [&](std::int64_t chunk, int) {
     const int y0 = static_cast<int>(chunk) * kRows;
     filter.take(y0, std::min(y0 + kRows, result.height), result);
   });
+  for (std::size_t i = 0; i < result.pixels.size(); ++i)
+    result.pixels[i] = result.pixels[i] * surfaceColor(guides.albedo.pixels[i]);
   return result;
 }
 

@@ -5,8 +5,10 @@
 // Zwicker, Adaptive Rendering with Non-Local Means Filtering, 2012), and by what their first surfaces are
 // (Rousselle, Manzi and Zwicker, Robust Denoising using Feature and Color Information, 2013). One half of the
 // samples says how the other is averaged, and the other way round, so that noise does not choose what it is
-// averaged with. We differ: features are measured against their slope alone, and there is one filter instead
-// of three.
+// averaged with. We differ: features are measured against their slope alone; what is averaged is light over
+// the colour of its surface, so that a texture does not separate pixels (Bitterli et al., Nonlinearly
+// Weighted First-order Regression for Denoising Monte Carlo Renderings, 2016, section 5.1); and where the
+// surfaces leave a pixel alone, as on an edge, colours alone count.
 #pragma once
 
 #include "base/parallel.h"
@@ -20,9 +22,10 @@ struct NoiseGuides {
   Picture nearness;  ///< 1 / depth; 0 where nothing is hit
 };
 
-/// Bytes that a pixel takes meanwhile: the halves and guides, their planes of floats, and the results.
+/// Bytes that a pixel takes meanwhile: the halves with and without the colours of surfaces, the guides, their
+/// planes of floats, and the results.
 constexpr std::uint64_t denoisingBytesPerPixel() {
-  return 8 * sizeof(Color) + 2 * sizeof(double) + 24 * sizeof(float);
+  return 11 * sizeof(Color) + 4 * sizeof(double) + 20 * sizeof(float);
 }
 
 /// Pixels without samples in both halves stay black, and count for no other. The same bits for any number of

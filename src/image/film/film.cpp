@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "base/budget.h"
@@ -72,8 +73,19 @@ void Film::add(std::int64_t tile, std::size_t wave, TileSamples samples) {
     sum(waves_[state.waves++], next->second);
 }
 
+void Film::sumSplats(const Wave& wave, const TileSamples& samples) {
+  splats_->add(samples.splats, samples.paths);
+  if (!firstSplats_) return;
+  std::vector<Splat> ofFirst;
+  std::copy_if(samples.splats.begin(), samples.splats.end(), std::back_inserter(ofFirst),
+               [](const Splat& splat) { return isOfFirstHalf(splat.sample); });
+  int count = 0;
+  for (int k = wave.first; k < wave.end; ++k) count += isOfFirstHalf(k);
+  firstSplats_->add(ofFirst, samples.paths / wave.count() * count);
+}
+
 void Film::sum(const Wave& wave, const TileSamples& samples) {
-  if (splats_) splats_->add(samples.splats, samples.paths);
+  if (splats_) sumSplats(wave, samples);
   const Tile& area = samples.area;
   const auto count = static_cast<std::size_t>(wave.count());
   std::size_t at = 0;
@@ -433,14 +445,23 @@ Convergence Film::convergence() const {
 Halves Film::halves() const {
   Halves halves{Picture(width_, height_), Picture(width_, height_), std::vector<double>(pixels_.size()),
                 std::vector<double>(pixels_.size())};
+  const auto splats = lockSplats();
   forEachDone([&](const PixelSum& pixel, int x, int y) {
     const WeightedMean& first = first_[index(x, y)];
     halves.first.at(x, y) = first.mean();
     halves.second.at(x, y) = pixel.colors().without(first).mean();
     const int taken = pixel.taken(), inFirst = taken / 8 * 4 + std::min(taken % 8, 4);
     if (inFirst == taken) return;
+    const double share = static_cast<double>(inFirst) / taken;
     halves.variance[index(x, y)] = pixel.variance();
-    halves.share[index(x, y)] = static_cast<double>(inFirst) / taken;
+    halves.share[index(x, y)] = share;
+    if (!firstSplats_) return;
+    // Splats of one path fall on many pixels: what the halves of a pixel have of them tells their variance.
+    const Color a = firstSplats_->mean(x, y), b = splats_->meanWithout(*firstSplats_, x, y);
+    halves.first.at(x, y) += a;
+    halves.second.at(x, y) += b;
+    const double apart = luminanceOf(a) - luminanceOf(b);
+    halves.variance[index(x, y)] += apart * apart * share * (1 - share);
   });
   return halves;
 }

@@ -213,8 +213,11 @@ class Film {
   /// Null where pixels are not divided.
   const CornerSamples* corners() const { return corners_.get(); }
 
-  /// From now on halves() are kept. Before anything is added.
-  void keepHalves() { first_.resize(pixels_.size()); }
+  /// From now on halves() are kept, of splats too if they are taken. Before anything is added.
+  void keepHalves() {
+    first_.resize(pixels_.size());
+    if (splats_) firstSplats_ = std::make_unique<SplatPlane>(width_, height_);
+  }
   bool keepsHalves() const { return !first_.empty(); }
   /// The halves of what is there. From any thread while others add.
   Halves halves() const;
@@ -339,6 +342,7 @@ class Film {
     return (tile + shift) % share.count == share.number;
   }
   void sum(const Wave& wave, const TileSamples& samples);
+  void sumSplats(const Wave& wave, const TileSamples& samples);
   void putCorners(std::int64_t tile, std::size_t level, TileSamples samples);
   /// Calls use(x, y, levels) for the pixels of every tile that has a wave: how many levels of corners are
   /// there, in this tile and around it. 0: the pixel has nothing but the corners that it is the home of.
@@ -366,6 +370,7 @@ class Film {
   std::unique_ptr<SplatPlane> splats_;  ///< null where none are taken
   std::unique_ptr<CornerSamples> corners_;
   std::vector<WeightedMean> first_;  ///< mean of the first half of each pixel's samples, if halves are kept
+  std::unique_ptr<SplatPlane> firstSplats_;  ///< theirs
 };
 
 }  // namespace trace

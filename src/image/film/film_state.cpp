@@ -138,6 +138,12 @@ class FilmState {
     }
   }
 
+  /// Those of the first half of the paths that have brought `all`.
+  static void takeFirst(Reader& from, SplatPlane& first, const SplatPlane& all) {
+    take(from, first);
+    if (first.paths_ > all.paths_) throw std::runtime_error("its number of paths makes no sense");
+  }
+
   static void add(SplatPlane& to, const SplatPlane& splats) {
     constexpr SplatPlane::Whole kMost = SplatPlane::kLimit / 2;  // two such sums are one that is read again
     const auto isMuch = [](SplatPlane::Whole part) { return part < -kMost || part > kMost; };
@@ -258,6 +264,7 @@ class FilmState {
     for (const Wave& wave : film.waves_) to.put(wave.end);
     to.put(static_cast<std::uint8_t>(film.takesSplats()));
     if (film.takesSplats()) put(to, *film.splats_);
+    if (film.firstSplats_) put(to, *film.firstSplats_);
     if (film.corners_) {
       const std::vector<std::size_t> levels = levelsThere(film);
       for (std::size_t i = 0; i < levels.size(); ++i) {
@@ -338,6 +345,7 @@ class FilmState {
     film.waves_ = std::move(waves);
     from.expect(static_cast<std::uint8_t>(film.takesSplats()), "it was made in another way");
     if (film.takesSplats()) take(from, *film.splats_);
+    if (film.firstSplats_) takeFirst(from, *film.firstSplats_, *film.splats_);
     for (std::int64_t i = 0; i < film.tiles(); ++i) {
       Film::TileState& state = film.states_[static_cast<std::size_t>(i)];
       state.waves = takeWaves(from, wavesSaved);
@@ -366,12 +374,16 @@ class FilmState {
                                std::to_string(asked));
     from.expect(static_cast<std::uint8_t>(film.takesSplats()), "it was made in another way");
     if (film.takesSplats()) {
-      SplatPlane splats(film.width_, film.height_);
+      SplatPlane splats(film.width_, film.height_), first(film.width_, film.height_);
       take(from, splats);
       constexpr std::int64_t kMostPaths = std::int64_t{1} << 62;
       if (splats.paths_ > kMostPaths - film.splats_->paths_)
         throw std::runtime_error("its number of paths makes no sense");
       add(*film.splats_, splats);
+      if (film.firstSplats_) {
+        takeFirst(from, first, splats);
+        add(*film.firstSplats_, first);
+      }
     }
     for (std::int64_t i = 0; i < film.tiles(); ++i) {
       const bool expected = film.isIn(share, i);
@@ -397,6 +409,7 @@ class FilmState {
     for (std::int64_t i = 0; i < film.tiles(); ++i) film.states_[static_cast<std::size_t>(i)].waves = 0;
     std::fill(film.first_.begin(), film.first_.end(), WeightedMean{});
     if (film.takesSplats()) film.takeSplats();
+    if (film.keepsHalves()) film.keepHalves();
     if (film.corners_) film.corners_->clear();
   }
 };

@@ -18,6 +18,7 @@ namespace trace {
 struct Splat {
   int x, y;
   Color value;
+  int sample = 0;  ///< its number among those of the pixel that brings it
 };
 
 /// Not for several threads at once, except for those that hold its mutex.
@@ -45,12 +46,12 @@ class SplatPlane {
   }
   std::int64_t paths() const { return paths_; }
   /// The mean contribution of a path to the pixel.
-  Color mean(int x, int y) const {
-    if (paths_ == 0) return Color(0);
-    const Sum& sum = sums_[index(x, y)];
-    const double scale = 1 / (kParts * static_cast<double>(paths_));
-    return Color(static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])) *
-           scale;
+  Color mean(int x, int y) const { return mean(sums_[index(x, y)], paths_); }
+  /// That of the paths that are not among those of `part`.
+  Color meanWithout(const SplatPlane& part, int x, int y) const {
+    Sum sum = sums_[index(x, y)];
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] -= part.sums_[index(x, y)][i];
+    return mean(sum, paths_ - part.paths_);
   }
 
  private:
@@ -61,6 +62,12 @@ class SplatPlane {
   static constexpr double kMost = 0x1p50;           ///< 2^37 of these do not overflow
   static constexpr Whole kLimit = Whole{1} << 126;  ///< largest sum that is read: as much can still be added
 
+  static Color mean(const Sum& sum, std::int64_t paths) {
+    if (paths == 0) return Color(0);
+    const double scale = 1 / (kParts * static_cast<double>(paths));
+    return Color(static_cast<double>(sum[0]), static_cast<double>(sum[1]), static_cast<double>(sum[2])) *
+           scale;
+  }
   static Whole parts(double value) {
     return static_cast<Whole>(std::nearbyint(std::clamp(value, -kMost, kMost) * kParts));
   }

@@ -17,7 +17,7 @@ Vec3 directionAt(Real across, Real height) {
 }  // namespace
 
 SkyTable::SkyTable(const Outside& outside, int threads, bool onlyHere) {
-  if (!outside.isSeenBy(RayKind::bounce)) return;
+  if (!outside.isSeenBy(RayKind::bounce) || outside.isEven()) return;
   constexpr int kSide = 2;  // places of a cell that are looked at, along each side
   sums_.resize(std::size_t{kColumns} * kRows);
   std::vector<Real> most(kRows), least(kRows, kInfinity);

@@ -11,6 +11,17 @@
 
 namespace trace {
 
+namespace {
+
+/// Whether light is seen on the side from which the shading normal points away. The inside of glass is shaded
+/// with its normal turned to the eye, and so is the back of what is shaded from both sides; other opaque
+/// things are lit from outside only.
+bool isTurned(const Ray& ray, const Hit& hit, bool transmits) {
+  return hit.twoSided ? hit.isBehind(ray.direction) : hit.leaving && transmits;
+}
+
+}  // namespace
+
 Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, const Differentials* footprint,
                          const Interfaces& inside_, Real spread)
     : tracer(tracer_),
@@ -18,18 +29,13 @@ Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, cons
       hit(hit_),
       inside(inside_),
       bsdf_(tracer.world().shade(hit, footprint)),
-      material(whitted(*bsdf_)) {
-  const World& world = tracer.world();
+      material(whitted(*bsdf_)),
+      normal(isTurned(ray, hit, material.transmits()) ? -hit.surface.shading : hit.surface.shading),
+      frame(tracer.world().frame(hit, *bsdf_, normal)),
+      cosine(-dot(ray.direction, normal)),
+      transmits(material.transmits()),
+      straight(material.passage == Passage::straight) {
   const Settings& settings = tracer.settings();
-  // The inside of glass is shaded with its normal turned to the eye, and so is the back of what is shaded
-  // from both sides; other opaque things are lit from outside only.
-  transmits = material.transmits();
-  const Vec3& shading = hit.surface.shading;
-  const bool turned = hit.twoSided ? hit.isBehind(ray.direction) : hit.leaving && transmits;
-  normal = turned ? -shading : shading;
-  frame = world.frame(hit, *bsdf_, normal);
-  cosine = -dot(ray.direction, normal);
-  straight = material.passage == Passage::straight;
   if (transmits || settings.varnish || tracer.records()) {
     boundary_.emplace(Boundary{tracer.filling(hit, material), {}});
     boundary_->sides = inside.at(hit.leaving, boundary_->body, hit.solid);
@@ -41,7 +47,8 @@ Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, cons
   fresnel_ = straight                                 ? Fresnel::constant
              : material.passage == Passage::byFresnel ? Fresnel::exact
                                                       : settings.fresnel;
-  if (settings.smoothTerminator && !transmits && !material.litThrough) raise(turned);
+  if (settings.smoothTerminator && !transmits && !material.litThrough)
+    raise(isTurned(ray, hit, transmits));
   whole_.nanometres = inside.wavelength;
   const auto disperses = [](const Sides& sides) {
     return !sides.before.dispersion.none() || !sides.behind.dispersion.none();

@@ -18,7 +18,10 @@ void goOn(Leg& leg, Turn& turn, const Interaction& at, const Differentials* arri
   leg.kind = next.kind;
   leg.ink = 0;
   if (next.behind) leg.inside = *next.behind;
-  leg.ray = bounces ? at.leaveToLight(next.direction) : at.hit.leave(next.direction);
+  if (bounces)
+    leg.ray = at.leaveToLight(next.direction);
+  else
+    leg.ray = at.hit.leave(next.direction);
 }
 
 }  // namespace trace

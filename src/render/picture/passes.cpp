@@ -300,7 +300,7 @@ Film makeFilm(const Settings& settings, int width, int height, const PassNames& 
   film.setWhite(whiteOf(settings));
   if (traits.has(Trait::splats)) film.takeSplats();
   if (subdivides(settings)) film.divide(subdivisionOf(settings, {width, height}));
-  if (settings.denoise && !traits.has(Trait::splats) && !film.corners()) film.keepHalves();
+  if (settings.denoise && !traits.has(Trait::byChains) && !film.corners()) film.keepHalves();
   return film;
 }
 

@@ -67,7 +67,7 @@ class PixelTracer {
     Tracer& tracer = this->tracer(momentOf(sampler));
     thrown_.clear();
     moments_[now_].integrator->throwLight(tracer, sampler, thrown_);
-    spreadThrown();
+    spreadThrown(k);
   }
   /// The camera ray alone.
   template <class Look>
@@ -144,13 +144,15 @@ class PixelTracer {
   Color radiance(const Sampler& sampler, const CameraRay& camera) {
     thrown_.clear();
     const Color radiance = moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
-    return spreadThrown() ? radiance : Color(std::numeric_limits<Real>::quiet_NaN());
+    return spreadThrown(sampler.sample()) ? radiance : Color(std::numeric_limits<Real>::quiet_NaN());
   }
-  /// False if something thrown is not finite: it is a part of the sample, which is as bad as that.
-  bool spreadThrown() {
+  /// False if something that the sample has thrown is not finite: it is a part of the sample, which is as bad
+  /// as that.
+  bool spreadThrown(int sample) {
     for (const Thrown& t : thrown_)
       if (!isFinite(t.color) || !std::isfinite(t.place.x) || !std::isfinite(t.place.y)) return false;
-    for (const Thrown& t : thrown_) spread(t, [&](const Splat& splat) { splats_->push_back(splat); });
+    for (const Thrown& t : thrown_)
+      spread(t, [&](const Splat& splat) { splats_->push_back({splat.x, splat.y, splat.value, sample}); });
     return true;
   }
 

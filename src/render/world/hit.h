@@ -20,9 +20,8 @@ struct Hit {
 
   /// A ray from here in that direction.
   Ray leave(const Vec3& direction) const {
-    Ray ray = spawnRay(surface, direction);
-    if (convex && dot(direction, surface.normal) > 0) ray.leaves = object;
-    return ray;
+    const bool leaves = convex && dot(direction, surface.normal) > 0;
+    return {offsetPoint(surface, direction), direction, leaves ? object : Ray::kNothing};
   }
 
   /// Whether a ray of that direction arrives from behind: on the side of the facet from which the shading

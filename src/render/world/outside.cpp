@@ -44,6 +44,12 @@ Outside::Outside(const Scene& scene, const Settings& settings, const CameraFrame
       !environment_ && std::any_of(faces.begin(), faces.end(), [](const Pixels* p) { return p->map; });
 }
 
+bool Outside::isEven() const {
+  const std::vector<Color>& colors = background_.gradient;
+  return !panorama_ && sky_ == Source::gradient &&
+         std::all_of(colors.begin(), colors.end(), [&](const Color& c) { return c == colors.front(); });
+}
+
 Vec3 Outside::turnedBack(const Vec3& d) const {
   return {turn_.x * d.x - turn_.y * d.z, d.y, turn_.y * d.x + turn_.x * d.z};
 }

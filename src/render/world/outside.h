@@ -45,6 +45,8 @@ class Outside {
   bool isSeenBy(RayKind kind) const {
     return kind == RayKind::camera ? !transparent_ : panorama_ || sky_ != Source::nothing;
   }
+  /// Rays other than the camera's surely see one colour in all directions.
+  bool isEven() const;
   /// Its direction has length 1.
   View view(const Ray& ray, RayKind kind) const;
 

@@ -424,7 +424,7 @@ class World {
   std::vector<Uses> uses_;   ///< placements in the world
   bool placedHold_ = false;  ///< some placed object holds rays
   std::vector<TracedShape> shapes_;
-  std::shared_ptr<const Forms> forms_;  ///< of shapes_
+  std::shared_ptr<const Forms> forms_;  ///< forms of shapes_
   std::shared_ptr<const Bvh> bvh_;
   std::vector<std::uint32_t> always_;  ///< objects that every ray may hit: those infinite, which no
                                        ///< hierarchy can hold; where there is no tree, all

@@ -23,8 +23,8 @@ struct Portal {
 
   static constexpr auto fields() {
     return Fields{Field{"position", &Portal::position, "", -kNoLimit, kNoLimit, "its middle"},
-                  Field{"u", &Portal::u, "", -kNoLimit, kNoLimit, "first edge vector"},
-                  Field{"v", &Portal::v, "", -kNoLimit, kNoLimit, "second edge vector"}};
+                  Field{"u", &Portal::u, "", -kNoLimit, kNoLimit, "first edge, the whole of it"},
+                  Field{"v", &Portal::v, "", -kNoLimit, kNoLimit, "second edge"}};
   }
   bool operator==(const Portal&) const = default;
   bool hasSize() const { return false; }

@@ -1,6 +1,9 @@
 // Anisotropic Phong with Fresnel's effect on a matt base (Ashikhmin and Shirley, An Anisotropic Phong BRDF
 // Model, Journal of Graphics Tools 5(2), 2000).
 // Reciprocal. Energy: gives back at most what arrives.
+//
+// Use it to reproduce work that has it: varnished wood with grain, satin. Not for new scenes of metal or
+// plastic: conductor and coated keep all light.
 #pragma once
 
 #include <string_view>

@@ -2,6 +2,8 @@
 // Blackstein, Stylized Rendering Techniques for Scalable Real-Time 3D Animation, NPAR 2000). A ramp gives the
 // colours of the light instead, from the side away from it to full light. `--outlines` draws outlines.
 // Not reciprocal. Energy: steps are rounded up, so that more than arrives may be given back.
+//
+// Use it for drawings, by whitted. Not where light bounces: it may give back more than arrives.
 #pragma once
 
 #include <cmath>

@@ -5,6 +5,9 @@
 // Under Whitted's equation a smooth layer sends one mirrored ray; of a rough one the ray stands for the
 // facets that lean less than 5 degrees. Both follow Schlick's approximation, or Fresnel's formula where the
 // rules say so.
+//
+// Use it for plastic, paint, glazed clay, varnish. Not for bare metal (conductor), nor for a layer of its own
+// thickness or colour: model that as an object of glass.
 #pragma once
 
 #include <string_view>

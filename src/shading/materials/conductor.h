@@ -5,6 +5,9 @@
 // Reciprocal. Energy: gives back what the metal's colour says, all of it if that is white.
 //
 // Under Whitted's equation the mirrored ray stands for the mirrors that lean less than 5 degrees.
+//
+// Use it for bare metal. Not for painted metal (coated), nor with invented indices: the library has measured
+// ones.
 #pragma once
 
 #include <string_view>

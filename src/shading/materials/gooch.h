@@ -2,6 +2,8 @@
 // shades (Gooch, Gooch, Shirley and Cohen, A Non-Photorealistic Lighting Model for Automatic Technical
 // Illustration, SIGGRAPH 1998, equation 2, and Blinn's highlight).
 // Not reciprocal, and no energy is kept: light from behind still gives the cool colour.
+//
+// Use it for technical drawings with one light, by whitted. Not where light bounces.
 #pragma once
 
 #include <string_view>

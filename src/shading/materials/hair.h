@@ -3,6 +3,9 @@
 // `angle` turns. Variant: strands that lie on a surface, whose cosine to the light is a factor; so only light
 // on the eye's side counts, and it fades towards the terminator.
 // Not reciprocal. Energy: gives back at most `diffuse` and `specular`, which are added.
+//
+// Use it for brushed threads and satin on a surface. Not for strands with a shape (marschner): it lets no
+// light through.
 #pragma once
 
 #include <cmath>

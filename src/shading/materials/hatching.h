@@ -4,6 +4,8 @@
 // printed pictures (after Praun, Hoppe, Webb and Finkelstein, Real-Time Hatching, SIGGRAPH 2001, whose
 // strokes are pictures). Meant for one light. Not reciprocal, and no energy is kept: paper is as bright under
 // any angle.
+//
+// Use it for drawings with one light, by whitted. Not where light bounces.
 #pragma once
 
 #include <cmath>

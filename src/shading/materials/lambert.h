@@ -1,5 +1,8 @@
 // Lambert's law: light is scattered evenly, whatever it comes from (Photometria, 1760).
 // Reciprocal. Energy: gives back `diffuse` of what arrives, from every direction.
+//
+// Use it for walls and paper, and where a guarantee is wanted: a test scene. Not for dusty things seen
+// against the light (oren_nayar).
 #pragma once
 
 #include <string_view>

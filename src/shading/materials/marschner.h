@@ -9,6 +9,8 @@
 // It is meant for strands that have a shape: cylinders, capsules, sweeps. Where on its breadth a strand is
 // hit follows from the normal. Light from behind shines through the strand, as if its object were not in its
 // own way.
+//
+// Use it for hair and fur made of strands. Not for a surface with a grain (hair, ward).
 #pragma once
 
 #include <array>

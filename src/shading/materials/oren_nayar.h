@@ -2,6 +2,8 @@
 // SIGGRAPH 1994): flat like the full moon, as clay and plaster are. Variant: the paper's qualitative model
 // (equation 30), without light between the facets.
 // Reciprocal. Energy: gives back at most `diffuse`, less the rougher it is.
+//
+// Use it for clay, plaster, stone, the moon. Not for cloth, whose fibres stand up (velvet).
 #pragma once
 
 #include <string_view>

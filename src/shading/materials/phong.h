@@ -3,6 +3,9 @@
 // highlight is not multiplied by the cosine to the light, as the courses have it.
 // Not reciprocal, for the lack of that cosine. Energy: as `diffuse` and `specular` say; more than arrives is
 // possible.
+//
+// Use it for the scenes of the courses, and where a highlight is all that is wanted. Not for path tracing of
+// shiny things: it does not keep energy, and its highlight has no Fresnel effect.
 #pragma once
 
 #include <algorithm>

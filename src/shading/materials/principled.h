@@ -9,6 +9,9 @@
 // what arrives; with grain within a few percent.
 //
 // Under Whitted's equation the mirrored ray stands for the facets that lean less than 5 degrees.
+//
+// Use it for files of other programs, and where one material changes from metal to cloth. Not for solid glass
+// (rough_glass, phong with an index), nor for skin (subsurface).
 #pragma once
 
 #include <string_view>

@@ -9,6 +9,9 @@
 //
 // Outside it is air. Under Whitted's equation one mirrored and one refracted ray stand for the facets that
 // lean less than 5 degrees, and lamps are seen in the rest; `--glossy` follows the rest too.
+//
+// Use it for frosted glass, ice, a ground rim. Not for clear glass by whitted, where phong with an index
+// casts the courses' shadow, nor for a pane without a thickness (thin_glass).
 #pragma once
 
 #include <string_view>

@@ -5,6 +5,8 @@
 // it, except for what `color` takes.
 //
 // It encloses nothing: what is inside of a bubble is air.
+//
+// Use it for windows and bubbles. Not for a glass object: it does not refract.
 #pragma once
 
 #include <string_view>

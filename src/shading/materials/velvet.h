@@ -1,6 +1,8 @@
 // Cloth with standing fibres on a matt base: dark seen from the front, bright at its edges. Sheen by Estevez
 // and Kulla (shading/optics/sheen.h), over Lambert's base, which gets what the sheen leaves on the way in and
 // out. Reciprocal. Energy: gives back at most what arrives.
+//
+// Use it for velvet, felt, peach skin. Not for satin, which shines across its threads (ward, hair).
 #pragma once
 
 #include <string_view>

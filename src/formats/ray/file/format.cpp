@@ -133,7 +133,12 @@ class Reader {
 
   void topLevelEntry(const Item& item) {
     if (item.key() == kTexture) return materials_.textures().define(item.value());
-    if (item.key() != Material::kKeyword) return findings_.notRendered(item.key(), item, knownWords());
+    if (item.key() != Material::kKeyword) {
+      if (findings_.isOfKind() && didYouMean(item.key(), knownWords()).empty())
+        return findings_.error(item, "\"" + std::string(item.key()) + "\" is not known",
+                               "let " + std::string(item.key()) + " = ... gives a name its value, once");
+      return findings_.notRendered(item.key(), item, knownWords());
+    }
     findings_.sureSignOf2005();
     materials_.current = materials_.read(item.value(), materials_.current);
   }

@@ -262,13 +262,22 @@ void Materials::unknownField(const Block& block, const Item& field) {
                  "say which model, before the field");
 }
 
+/// For the first word of a name of several.
+static std::string inQuotes(const std::string& word) {
+  for (const std::string_view name : libraryNames())
+    if (name.starts_with(word + " "))
+      return "a name of several words stands in quotation marks: \"" + std::string(name) + "\"";
+  return {};
+}
+
 /// Starts the block as a copy of a material of the library; its name stays.
 void Materials::fromLibrary(Block& block, const Item& value) {
   std::string name;
   if (!rayfile::read(findings_, kLibrary, value, name)) return;
   const std::optional<Material> found = libraryMaterial(name);
   if (!found) {
-    std::string hint = didYouMean(name, libraryNames());
+    std::string hint = value.source().starts_with('"') ? "" : inQuotes(name);
+    if (hint.empty()) hint = didYouMean(name, libraryNames());
     if (hint.empty()) hint = "ray materials lists them; diffuse = (red, green, blue) makes a colour";
     findings_.error(value, "library: expected the name of a material, found " + describe(value),
                     std::move(hint));
@@ -362,15 +371,15 @@ std::uint32_t Materials::index(const NotedMaterial& material) {
 std::uint32_t Materials::index(const Material& material) {
   markUsed(material.name);
   std::vector<Material>& all = findings_.scene().materials;
-  if (last_ < all.size() && all[last_] == material) return last_;
+  if (last_ && all[*last_] == material) return *last_;
   const std::size_t hash = hashOf(material);
   const auto [first, last] = byHash_.equal_range(hash);
   for (auto found = first; found != last; ++found)
-    if (all[found->second] == material) return last_ = found->second;
+    if (all[found->second] == material) return *(last_ = found->second);
   last_ = static_cast<std::uint32_t>(all.size());
   all.push_back(material);
-  byHash_.emplace(hash, last_);
-  return last_;
+  byHash_.emplace(hash, *last_);
+  return *last_;
 }
 
 }  // namespace trace::rayfile

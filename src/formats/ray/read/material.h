@@ -71,7 +71,7 @@ class Materials {
   void markUsed(const std::string& name);
   std::map<std::string, Named, std::less<>> named_;
   std::unordered_multimap<std::size_t, std::uint32_t> byHash_;
-  std::uint32_t last_ = 0;  ///< the index that was asked for last
+  std::optional<std::uint32_t> last_;  ///< the index that was asked for last
 };
 
 }  // namespace trace::rayfile

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "base/text.h"
+#include "geometry/shape.h"
+#include "shading/material.h"
 
 namespace trace::rayfile {
 namespace {
@@ -78,9 +80,28 @@ std::string partOf(std::string_view word, std::span<const std::string_view> know
   return text.empty() ? text : text + "?";
 }
 
+constexpr std::array<std::string_view, 7> kSizes{"radius", "size",  "width",   "height",
+                                                 "length", "depth", "diameter"};
+constexpr std::array<std::string_view, 4> kPlaces{"position", "translate", "at", "origin"};
+constexpr std::array<std::string_view, 5> kColours{"color", "colour", "diffuse", "texture", "albedo"};
+
+/// For a field by which other programs say what Trace says around the object or in its material.
+std::string saidElsewhere(std::string_view owner, std::string_view name) {
+  const std::string made = std::string(owner) + " { } }";
+  if (owner == Material::kKeyword)
+    return didYouMean(name, kColours).empty() ? "" : "diffuse = (red, green, blue) is its colour";
+  if (owner == "rectangle_light" && (name == "direction" || isOneOf(kSizes, name)))
+    return "u and v are its edges, which say how large it is; it shines toward u x v";
+  if (!findShapeType(owner)) return {};
+  if (isOneOf(kSizes, name)) return "scale(2) { " + made + " makes it twice as large";
+  if (isOneOf(kPlaces, name)) return "translate(1, 2, 3) { " + made + " puts it there";
+  if (isOneOf(kColours, name)) return "material = { diffuse = (red, green, blue) } is its colour";
+  return {};
+}
+
 /// For a field that is like no other: all there are, if they are few.
 std::string allOf(std::span<const std::string_view> fields) {
-  constexpr std::size_t kFew = 6;
+  constexpr std::size_t kFew = 12;
   if (fields.empty() || fields.size() > kFew) return {};
   std::string text;
   for (std::string_view field : fields) text += (text.empty() ? "it has " : ", ") + std::string(field);
@@ -190,8 +211,8 @@ void Findings::unknownField(std::string_view owner, const Item& field,
   if (!isOfKind() && again(key)) return;
   std::string hint;
   if (warnings_.size() < kFullWarnings) hint = meant(name, known);
-  if (owner == "sphere" && name == "radius") hint = "scale(2) { sphere { } } makes it twice as large";
   if (warnings_.size() < kFullWarnings && hint.empty()) hint = partOf(name, known);
+  if (warnings_.size() < kFullWarnings && hint.empty()) hint = saidElsewhere(owner, name);
   if (warnings_.size() < kFullWarnings && hint.empty()) hint = allOf(known);
   if (isOfKind())
     return error(field, std::string(owner) + " has no field " + quotedStart(name), std::move(hint));

@@ -80,6 +80,7 @@ std::string_view hintFor(std::string_view text) {
     if (text.starts_with(quote)) return "text stands in straight quotation marks: \"text\"";
   if (text.starts_with("\u00a0")) return "the blank there is a no-break space; a plain one is wanted";
   if (text.starts_with("=")) return "== compares two values; name = value is a field";
+  if (text.starts_with(":")) return "a field gets its value by =, as in diffuse = (1, 0, 0)";
   if (text.starts_with("<")) return "a point or a colour is (x, y, z), and a field name = value";
   return {};
 }
@@ -295,6 +296,8 @@ class Parser {
       nodes_[number].end = number + 1;
     }
     ++at_;
+    blanks();
+    if (peek() == '{') failFound("expected an angle, as in rotate y 30 deg { }");
     beforeBody_ = true;
     value("an angle, as in rotate y 30 deg { }");
     beforeBody_ = false;
@@ -671,7 +674,9 @@ class Parser {
          hintAt(opened) + " is not closed yet");
   }
   std::string hintAt(std::size_t opened) const {
-    return "the " + shown(source_[opened]) + " at line " + std::to_string(syntax_.place(base_ + opened).line);
+    const Place place = syntax_.place(base_ + opened);
+    return "the " + shown(source_[opened]) + " at line " + std::to_string(place.line) + ", column " +
+           std::to_string(place.column);
   }
 
   /// Reports that something else was expected here.
