@@ -1,4 +1,5 @@
-/* Makes the ball of a scene green, renders it and asks one pixel why. Usage: open_and_explain SCENE PICTURE */
+/* Makes the ball of a scene green, renders it and asks one pixel why. Usage: open_and_explain SCENE PICTURE
+ */
 #include <stdio.h>
 #include <traceray/traceray_c.h>
 
