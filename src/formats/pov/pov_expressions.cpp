@@ -59,9 +59,8 @@ std::optional<Real> constantNamed(std::string_view w) {
   if (w == "true" || w == "yes" || w == "on") return 1;
   if (w == "false" || w == "no" || w == "off") return 0;
   if (w == "clock_delta" || w == "final_frame" || w == "initial_frame" || w == "final_clock" ||
-      w == "frame_number")
-    return 1;
-  if (w == "initial_clock" || w == "clock_on") return 0;
+      w == "frame_number" || w == "initial_clock" || w == "clock_on")
+    return 0;  // as of a picture that is no part of an animation
   if (w == "image_width") return 640;
   if (w == "image_height") return 480;
   if (w == "now") return 0;

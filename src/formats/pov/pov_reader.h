@@ -87,6 +87,7 @@ class Reader {
   void callMacro(const Ref<Macro>& macro, const Token& at);
   void include(const Token& at);
   void setDefault();
+  void say(const Token& at, const std::string& text);
   Token raw();
   const Token& rawPeek() const;
   void skipSemicolon();
@@ -237,6 +238,7 @@ class Reader {
   bool pattern(PatternNode& p);
   bool patternModifier(PatternNode& p, Affine& at);
   ImageNode image();
+  void findPicture(const Token& at, ImageNode& image);
   Ref<MapNode> map(const Token& keyword);
   bool startsPattern(const Token& t) const;
 
@@ -268,8 +270,9 @@ class Reader {
     std::size_t frames = 0;
     bool begun = false;  ///< a token of the value was read
   } stop_;
-  Omissions* left_ = nullptr;  ///< omissions of the texture that is read
-  int depth_ = 0;              ///< expressions and objects, one within the other
+  std::size_t debugLines_ = 0;  ///< lines of #debug that were reported
+  Omissions* left_ = nullptr;   ///< omissions of the texture that is read
+  int depth_ = 0;               ///< expressions and objects, one within the other
   std::int64_t steps_ = 0;
   std::int64_t madeObjects_ = 0;
   std::vector<std::uint64_t> seeds_;
