@@ -111,6 +111,8 @@ TEST(PovLanguage, ConditionsAndLoops) {
   EXPECT_EQ(valueOf("(I = 1) + 10 * (I >= 1)", "#declare I = 0; #for (K, 1, 10) #declare I = I + .1; #end"),
             11);
   EXPECT_EQ(valueOf("1 + frame_number + final_frame + clock_on"), 1);
+  EXPECT_EQ(valueOf("T[frame_number - 1]", "#declare T = array[2] {5, 7};"), 5)
+      << "the first of an animation";
   EXPECT_EQ(valueOf("A", "#declare A = 2; #undef A #ifdef (A) #else #declare A = 8; #end"), 8);
 }
 

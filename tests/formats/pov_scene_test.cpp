@@ -279,6 +279,14 @@ TEST(PovScene, PatternsWithoutAMapHaveTheColoursOfPovRay) {
   EXPECT_EQ(rampOf("leopard").size(), 2u);
 }
 
+TEST(PovScene, AnAverageKeepsTheHighlightOfOneOfItsTextures) {
+  const Phong mean =
+      phongOfFirst(sceneOf("sphere { 0, 1 texture { average texture_map { [pigment { rgb 1 }] [pigment { rgb "
+                           "1 } finish { phong 1 }] } } }"));
+  EXPECT_EQ(mean.specular, Color(0.5));
+  EXPECT_GT(mean.shininess, 40);
+}
+
 TEST(PovScene, ATextBeginsWithItsFirstLetter) {
   const std::string font = "/usr/share/povray-3.7/include/cyrvetic.ttf";
   if (!std::filesystem::exists(font)) GTEST_SKIP() << "needs the package povray-includes";

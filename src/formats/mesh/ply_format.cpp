@@ -281,13 +281,13 @@ class PlyReader {
     body_.readLists(element, lists, [&](std::span<const std::uint32_t> corners, std::span<const float> uvs) {
       const std::size_t number = row++;
       if (!isGood(corners, number)) return;
-      if (direct && corners.size() == 3)
+      if (!direct) return keep(corners, uvs, number);
+      if (corners.size() == 3) {
         mesh_.triangles.push_back({corners[0], corners[1], corners[2]});
-      else if (direct)
-        appendPolygon(mesh_, corners);
-      else
-        keep(corners, uvs, number);
-      if (direct) faceOf_.resize(mesh_.triangles.size(), body_.row());
+        return faceOf_.push_back(body_.row());
+      }
+      appendPolygon(mesh_, corners);
+      faceOf_.resize(mesh_.triangles.size(), body_.row());
     });
     if (unusable_ > 0)
       messages_.warn(firstUnusable_,

@@ -454,7 +454,11 @@ Painter::Look Painter::averageOf(const Entries<TextureNode>& entries, const std:
     }
     all.*field = sum;
   }
-  for (const Look& look : looks) all.clear = all.clear && look.clear;
+  for (const Look& look : looks) {
+    all.clear = all.clear && look.clear;
+    if (all.shininess == 0) all.shininess = look.shininess;
+    if (!all.relief) all.relief = look.relief, all.bump = look.bump;
+  }
   return all;
 }
 

@@ -48,6 +48,10 @@ class Reader {
   World read();
 
   WarningsByKind& warnings() { return warnings_; }
+  /// Whether the file asks which picture of an animation it is.
+  bool asksFrame() const { return asksFrame_; }
+  /// It is the first of an animation of one picture, and not, as POV-Ray has it by default, of none.
+  void setAnimated() { frame_ = 1; }
 
  private:
   // --- tokens and directives (pov_directives.cpp) ---
@@ -270,6 +274,8 @@ class Reader {
     std::size_t frames = 0;
     bool begun = false;  ///< a token of the value was read
   } stop_;
+  Real frame_ = 0;  ///< value of frame_number and its like
+  bool asksFrame_ = false;
   std::size_t debugLines_ = 0;  ///< lines of #debug that were reported
   Omissions* left_ = nullptr;   ///< omissions of the texture that is read
   int depth_ = 0;               ///< expressions and objects, one within the other
