@@ -196,7 +196,7 @@ auto asNamed(const FoundFormat& format, Read&& read) {
   } catch (const Error& error) {
     if (error.fault() != Fault::scene) throw;
     Message message = error.messages().front();
-    message.what = format.byName + "it is not sound: " + message.what;
+    message.what = format.byName + "not valid as " + std::string(format.row.name) + ": " + message.what;
     throw Error(error.fault(), {message});
   }
 }

@@ -56,73 +56,107 @@ Mesh withMaterials(const MeshData& mesh, const Model& model, const Material& bas
 
 }  // namespace
 
+void CountedFlaw::report(std::string_view what, Messages& messages) const {
+  if (count == 0) return;
+  const std::string name = first.name.empty() ? "" : ", first at " + first.name;
+  messages.warn(first.place, std::string(what) + ": " + std::to_string(count) + name);
+}
+
 void MeshRepairs::check(MeshData& mesh, const Place& place) {
-  const std::size_t before = flaws();
-  dropInfinite(mesh, place);
-  for (Vec3f& normal : mesh.normals)
-    if (!isFinite(normal)) {
-      normal = {};
-      ++notFinite_;
-    }
+  check(mesh, [&](MeshPart, std::size_t) { return MeshSpot{place}; });
+}
+
+void MeshRepairs::check(MeshData& mesh, const FindInFile& find) {
+  const auto spotOf = [&](MeshPart part, std::size_t index) {
+    return [&find, part, index] { return find(part, index); };
+  };
+  const std::vector<std::uint32_t> former = dropInfinite(mesh, find);
+  for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
+    Vec3f& normal = mesh.normals[i];
+    if (normal == Vec3f{} && !mesh.generateNormals) zeroNormals_.add(1, spotOf(MeshPart::normal, i));
+    if (isFinite(normal)) continue;
+    normal = {};
+    infiniteNormals_.add(1, spotOf(MeshPart::normal, i));
+  }
   for (std::vector<Vec2>* uvs : {&mesh.uvs, &mesh.secondUvs})
-    for (Vec2& uv : *uvs)
-      if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
-        uv = {};
-        ++notFinite_;
-      }
-  degenerate_ += dropDegenerate(mesh);
-  zeroNormals_ += repairNormals(mesh);
+    for (std::size_t i = 0; i < uvs->size(); ++i) {
+      Vec2& uv = (*uvs)[i];
+      if (std::isfinite(uv.x) && std::isfinite(uv.y)) continue;
+      uv = {};
+      infiniteUvs_.add(1, spotOf(MeshPart::uv, i));
+    }
+  const Degenerate flat = dropDegenerate(mesh);
+  withoutArea_.add(flat.count, spotOf(MeshPart::triangle, former.empty() ? flat.first : former[flat.first]));
+  repairNormals(mesh);
   triangles_ += mesh.triangles.size();
-  if (flaws() > before && place.line > 0 && !first_) first_ = place;
 }
 
-std::size_t MeshRepairs::flaws() const {
-  return infinitePoints_ + lostTriangles_ + notFinite_ + degenerate_ + zeroNormals_;
+void MeshRepairs::checkColors(std::vector<Vec3f>& colors, const FindInFile& find, float white) {
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    if (isFinite(colors[i])) continue;
+    colors[i] = {white, white, white};
+    infiniteColors_.add(1, [&] { return find(MeshPart::color, i); });
+  }
 }
 
-void MeshRepairs::dropInfinite(MeshData& mesh, const Place& place) {
+std::vector<std::uint32_t> MeshRepairs::dropInfinite(MeshData& mesh, const FindInFile& find) {
   const auto isOdd = [&](const Vec3f& point) { return !isFinite(point); };
-  const auto first = std::find_if(mesh.points.begin(), mesh.points.end(), isOdd);
-  if (first == mesh.points.end()) return;
-  const auto number = std::to_string(first - mesh.points.begin());
-  const std::size_t before = mesh.triangles.size();
+  const auto firstOdd = std::find_if(mesh.points.begin(), mesh.points.end(), isOdd);
+  if (firstOdd == mesh.points.end()) return {};
+  const auto number = static_cast<std::size_t>(firstOdd - mesh.points.begin());
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
+  const auto isLost = [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(), [&](std::uint32_t p) { return isOdd(mesh.points[p]); });
+  };
+  std::vector<bool> lost;
+  for (const Triangle& t : mesh.triangles) lost.push_back(isLost(t));
+  for (const auto& [first, n] : mesh.polygons) {  // a polygon is lost as a whole
+    const auto begin = lost.begin() + first, end = begin + n;
+    if (std::find(begin, end, true) != end) std::fill(begin, end, true);
+  }
   MeshData kept = mesh;
   kept.triangles.clear();
   kept.polygons.clear();
-  for (std::size_t i = 0; i < before; ++i) {
-    const auto& t = mesh.triangles[i];
-    const bool good =
-        std::none_of(std::begin(t), std::end(t), [&](std::uint32_t p) { return isOdd(mesh.points[p]); });
-    if (good) kept.triangles.push_back(t);
+  std::vector<std::uint32_t> former;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (lost[i]) {
+      lostTriangles_.add(1, [&] { return find(MeshPart::triangle, i); });
+      continue;
+    }
+    kept.triangles.push_back(mesh.triangles[i]);
+    former.push_back(i);
   }
-  if (before > 0 && kept.triangles.empty())
-    throw Error(Fault::scene, place, "point " + number + ": expected three finite numbers of at most 3.4e38");
+  if (count > 0 && kept.triangles.empty()) {
+    const MeshSpot spot = find(MeshPart::point, number);
+    throw Error(Fault::scene, spot.place,
+                (spot.name.empty() ? "point " + std::to_string(number) : spot.name) +
+                    ": expected three finite numbers of at most 3.4e38");
+  }
   const auto good = std::find_if_not(kept.points.begin(), kept.points.end(), isOdd);
   const Vec3f stand = good == kept.points.end() ? Vec3f{} : *good;  // so that bounds stay what is seen
-  for (Vec3f& point : kept.points)
-    if (isOdd(point)) {
-      point = stand;
-      ++infinitePoints_;
-    }
-  lostTriangles_ += before - kept.triangles.size();
+  for (std::size_t i = 0; i < kept.points.size(); ++i) {
+    if (!isOdd(kept.points[i])) continue;
+    kept.points[i] = stand;
+    infinitePoints_.add(1, [&] { return find(MeshPart::point, i); });
+  }
   mesh = std::move(kept);
+  return former;
 }
 
 void MeshRepairs::report(const Place& place, Messages& messages) const {
-  const auto warn = [&](std::string_view what, std::size_t count) {
-    if (count > 0) messages.warn(first_.value_or(place), std::string(what) + ": " + std::to_string(count));
-  };
-  warn("points that are not three finite numbers of at most 3.4e38", infinitePoints_);
-  warn("triangles that use such points are left out", lostTriangles_);
-  warn("normals or uv that are not finite are replaced", notFinite_);
-  warn(kWithoutArea, degenerate_);
-  warn("normals of length 0 are taken from the faces", zeroNormals_);
+  infinitePoints_.report("points that are not three finite numbers of at most 3.4e38", messages);
+  lostTriangles_.report("triangles that use such points are left out", messages);
+  infiniteNormals_.report("normals that are not finite are taken from the faces", messages);
+  infiniteUvs_.report("texture coordinates that are not finite become 0", messages);
+  infiniteColors_.report("colours of points or faces that are not finite become white", messages);
+  withoutArea_.report(kWithoutArea, messages);
+  zeroNormals_.report("normals of length 0 are taken from the faces", messages);
   if (triangles_ == 0) messages.warn(place, "the file has no triangle that can be seen");
 }
 
-void addOnlyMesh(Model& model, MeshData mesh, const Place& place, Messages& messages) {
-  MeshRepairs repairs;
-  repairs.check(mesh, place);
+void addOnlyMesh(Model& model, MeshData mesh, MeshRepairs& repairs, const FindInFile& find,
+                 const Place& place, Messages& messages) {
+  repairs.check(mesh, find);
   repairs.report(place, messages);
   model.objects.push_back(
       {"", Mesh{std::make_shared<const MeshData>(std::move(mesh))}, {}, Model::kNoMaterial, place});

@@ -37,27 +37,60 @@ struct Model {
   bool saysSides = false;  ///< the format knows Material::sides; otherwise a file by itself shows both
 };
 
-/// Checks of meshes for every reader, and the number of repairs.
+/// The parts of a mesh that may have flaws.
+enum class MeshPart { triangle, point, normal, uv, color };
+
+/// Where a part of a mesh is in its file: a line, or, in a binary file, words such as "facet 12".
+struct MeshSpot {
+  Place place{};
+  std::string name{};
+};
+
+/// Finds the part of that index. MeshRepairs calls it for the first of each flaw only, so it may be slow.
+using FindInFile = std::function<MeshSpot(MeshPart, std::size_t)>;
+
+/// The number of times that a reader met a flaw, and the spot of the first.
+struct CountedFlaw {
+  std::size_t count = 0;
+  MeshSpot first{};
+
+  /// `spot` returns a MeshSpot; it is called once.
+  template <class Spot>
+  void add(std::size_t more, const Spot& spot) {
+    if (more == 0) return;
+    if (count == 0) first = spot();
+    count += more;
+  }
+  /// Warns, with the count and the first spot, if there was one.
+  void report(std::string_view what, Messages& messages) const;
+};
+
+/// The one rule of all mesh readers: a flaw costs what uses it. It is counted, and reported with its first
+/// spot.
 class MeshRepairs {
  public:
-  /// Makes a mesh one that can be traced. The place is that of its first flaw, where the reader knows it.
-  /// Throws Error(Fault::scene) if each triangle uses a point that is not finite.
+  /// Makes a mesh one that can be traced. Throws Error(Fault::scene) if each triangle uses a point that is
+  /// not finite.
+  void check(MeshData& mesh, const FindInFile& find);
+  /// For readers that know one place of the whole mesh.
   void check(MeshData& mesh, const Place& place);
-  /// Warns of what all meshes so far had, at the place of the first flaw that has a line, or else at `place`.
+  /// Colours that are not finite become white. To be called before they become materials.
+  void checkColors(std::vector<Vec3f>& colors, const FindInFile& find, float white = 1);
+  /// Warns of the flaws of all meshes so far; `place` is that of the file.
   void report(const Place& place, Messages& messages) const;
 
  private:
-  std::size_t flaws() const;
-  /// Without the triangles whose points are not finite.
-  void dropInfinite(MeshData& mesh, const Place& place);
+  /// Removes the triangles whose points are not finite. The former indices of the others, if there were such.
+  std::vector<std::uint32_t> dropInfinite(MeshData& mesh, const FindInFile& find);
 
-  std::size_t infinitePoints_ = 0, lostTriangles_ = 0, notFinite_ = 0, degenerate_ = 0, zeroNormals_ = 0,
-              triangles_ = 0;
-  std::optional<Place> first_;  ///< place of the first flaw
+  CountedFlaw infinitePoints_, lostTriangles_, infiniteNormals_, infiniteUvs_, infiniteColors_, withoutArea_,
+      zeroNormals_;
+  std::size_t triangles_ = 0;
 };
 
 /// Adds the mesh of a file that holds just one, repaired with warnings. Throws as MeshRepairs::check().
-void addOnlyMesh(Model& model, MeshData mesh, const Place& place, Messages& messages);
+void addOnlyMesh(Model& model, MeshData mesh, MeshRepairs& repairs, const FindInFile& find,
+                 const Place& place, Messages& messages);
 
 /// The model's objects as a scene has them. `base` is the material of those without one; `index` gives a
 /// material's number in the scene. Meshes are shared with the model unless their points are coloured.

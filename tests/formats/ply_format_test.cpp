@@ -180,7 +180,7 @@ TEST(Ply, SaysWhatIsWrong) {
        "15:1: face 0 uses a number that no point has but the mesh has 4 points, counted from 0"},
       {replaced(kSquare, "4 0 1 2 3", "4 0 1"),
        "15:2: element \"face\": a list is longer than the rest of the file"},
-      {replaced(kSquare, "0.5", "wide"), "14:5: element \"vertex\": expected a number"},
+      {replaced(kSquare, "0.5", "wide"), "14:1: point 3: expected three finite numbers of at most 3.4e38"},
       {replaced(kSquare, "vertex 4", "vertex 999999999999"),
        "11:1: expected 999999999999 of element \"vertex\", but the file has bytes for at most 6"},
       {replaced(kSquare, "face 1", "face 99999"),
@@ -193,7 +193,7 @@ TEST(Ply, SaysWhatIsWrong) {
 
 TEST(Ply, WarnsOfWhatIsRepaired) {
   EXPECT_EQ(warningsOfFile(replaced(kSquare, "face 1", "face 2") + "3 0 1 1\n"),
-            "0:0: triangles without area are left out: 1");
+            "16:1: triangles without area are left out: 1");
   EXPECT_EQ(warningsOfFile(replaced(kSquare, "face 1", "face 2") + "2 0 1\n"),
             "16:1: faces of fewer than 3 points are left out: 1");
 }

@@ -103,6 +103,16 @@ TEST(PovLanguage, ConditionsAndLoops) {
   EXPECT_EQ(
       valueOf("A", "#declare A = 2; #ifdef (B) #declare A = 3; #end #ifndef (B) #declare A = A + 2; #end"),
       4);
+  // 0.1 ten times is a little less than 1: the comparison is exact, and that for equality is not.
+  EXPECT_EQ(valueOf("N",
+                    "#declare I = 0; #declare N = 0; #while (I < 1) #declare N = N + 1; #declare I = I + "
+                    ".1; #end"),
+            11);
+  EXPECT_EQ(valueOf("(I = 1) + 10 * (I >= 1)", "#declare I = 0; #for (K, 1, 10) #declare I = I + .1; #end"),
+            11);
+  EXPECT_EQ(valueOf("1 + frame_number + final_frame + clock_on"), 1);
+  EXPECT_EQ(valueOf("T[frame_number - 1]", "#declare T = array[2] {5, 7};"), 5)
+      << "the first of an animation";
   EXPECT_EQ(valueOf("A", "#declare A = 2; #undef A #ifdef (A) #else #declare A = 8; #end"), 8);
 }
 

@@ -16,7 +16,9 @@
 #include "shading/lights/point_light.h"
 #include "shading/lights/spot_light.h"
 #include "shading/materials/phong.h"
+#include "shading/textures/image_map.h"
 #include "shading/textures/solid.h"
+#include "support/folder.h"
 #include "support/paths.h"
 
 namespace trace::pov_scene_test {
@@ -237,6 +239,85 @@ TEST(PovScene, OmissionsAreToldOnceAndCounted) {
   warnings.clear();
   sceneOf("#declare F = finish { crand 0.1 } sphere { 0, 1 }", &warnings);
   EXPECT_EQ(warnings, "") << "what is not used is not left out";
+}
+
+TEST(PovScene, EachOmissionHasTheLineOfTheFirst) {
+  std::string warnings;
+  sceneOf(
+      "sphere { 0, 1 pigment { rgb 1 } }\n"
+      "sphere { 0, 1 pigment {\n slope y color_map { [0 rgb 0] [1 rgb 1] } } }\n"
+      "sphere { 0, 1 texture { mandel 9\n texture_map { [0 pigment { rgb 0 }] [1 pigment { rgb 1 }] } } }\n"
+      "sphere { 0, 1 pigment { rgbt 1 } interior { media { emission 1 }\n media { emission 1 } } }\n"
+      "superellipsoid { <3, 0.5> }\n"
+      "fog { distance 9 rgbt <1, 1, 1, 0.5>\n turbulence 0.3 }\n",
+      &warnings);
+  for (const char* expected :
+       {"4: the pattern slope is left out", "5: the pattern mandel is left out", "8: a second media",
+        "9: exponents of a superellipsoid are limited to 0.02 to 2",
+        "10: the filter or transmit of a fog's colour", "11: the turbulence of a fog is left out"})
+    EXPECT_NE(warnings.find(expected), warnings.npos) << expected << "\nin\n" << warnings;
+}
+
+TEST(PovScene, LinesThatTheSceneSaysAreReported) {
+  std::string warnings;
+  sceneOf("#debug concat(\"one\\n\", \"two\\n\")\n#warning \"beware\\n\"\n#debug \"one\\n\"\nsphere { 0, 1 }",
+          &warnings);
+  EXPECT_EQ(warnings, "2: #debug: one (2 times, first here)\n2: #debug: two\n3: the scene warns: beware\n");
+}
+
+TEST(PovScene, PatternsWithoutAMapHaveTheColoursOfPovRay) {
+  const auto rampOf = [](const std::string& pattern) {
+    const Scene scene = sceneOf("sphere { 0, 1 pigment { " + pattern + " } }");
+    return (*textureOf(scene.materials.at(0).textures, "diffuse"))->model.as<Solid>()->ramp;
+  };
+  const ColorRamp radial = rampOf("radial");
+  ASSERT_EQ(radial.size(), 4u);
+  EXPECT_EQ(radial[0][1], 0);
+  EXPECT_GT(radial[0][2], 0);
+  EXPECT_EQ(rampOf("agate").size(), 5u);
+  EXPECT_EQ(rampOf("bozo").size(), 4u);
+  EXPECT_EQ(rampOf("leopard").size(), 2u);
+}
+
+TEST(PovScene, AnAverageKeepsTheHighlightOfOneOfItsTextures) {
+  const Phong mean =
+      phongOfFirst(sceneOf("sphere { 0, 1 texture { average texture_map { [pigment { rgb 1 }] [pigment { rgb "
+                           "1 } finish { phong 1 }] } } }"));
+  EXPECT_EQ(mean.specular, Color(0.5));
+  EXPECT_GT(mean.shininess, 40);
+}
+
+TEST(PovScene, ATextBeginsWithItsFirstLetter) {
+  const std::string font = "/usr/share/povray-3.7/include/cyrvetic.ttf";
+  if (!std::filesystem::exists(font)) GTEST_SKIP() << "needs the package povray-includes";
+  const Scene scene = sceneOf("text { ttf \"cyrvetic.ttf\" \"BD\" 0.1, 0 }");
+  EXPECT_NEAR(bounds(scene).low.x, 0, 1e-3);
+}
+
+TEST(PovScene, ADensityColoursItsMedium) {
+  const Scene scene = sceneOf(
+      "sphere { 0, 1 pigment { rgbt 1 } interior { media { emission 2\n density { spherical color_map { [0 "
+      "rgb 0] "
+      "[1 rgb <1, 0, 0>] } } } } }");
+  const Color glows = scene.materials.at(0).mediumGlows;
+  EXPECT_GT(glows.r, 0);
+  EXPECT_EQ(glows.g, 0);
+  EXPECT_EQ(glows.b, 0);
+  EXPECT_NEAR(luminance(glows), 2, 1e-12);
+}
+
+TEST(PovScene, PicturesAreFoundBesideTheFileThatNamesThem) {
+  const test::Folder folder;
+  std::filesystem::create_directories(folder / "parts");
+  writeFile(folder / "parts/dots.ppm", "P3 1 1 255 9 8 7");
+  writeFile(folder / "parts/dots.inc", "#declare P = pigment { image_map { ppm \"dots.ppm\" } }\n");
+  const std::string scene = "#version 3.7;\n#include \"parts/dots.inc\"\nsphere { 0, 1 pigment { P } }\n";
+  Messages messages;
+  const Scene read = readScene(folder / "a.pov", scene, messages);
+  EXPECT_TRUE(messages.all().empty()) << messages.all().front().what;
+  const auto* map = (*textureOf(read.materials.at(0).textures, "diffuse"))->model.as<ImageMap>();
+  ASSERT_TRUE(map && map->file.map);
+  EXPECT_EQ(map->file.file, "dots.ppm");
 }
 
 TEST(PovScene, WhatCastsNoShadow) {

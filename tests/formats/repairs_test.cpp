@@ -2,11 +2,15 @@
 // of files lead nowhere that a scene may not read.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 
 #include "base/files/file.h"
 #include "base/files/read_scope.h"
 #include "formats/format.h"
+#include "formats/gltf_square.h"
 #include "geometry/mesh/mesh.h"
 #include "support/folder.h"
 
@@ -200,6 +204,139 @@ TEST(Repairs, StlOfAnySpellingIsTurnedAsItsNormalsSay) {
     ASSERT_EQ(read.triangles(), 1u) << text << read.error;
     EXPECT_TRUE(read.warns("are turned: 1")) << read.warnings;
     EXPECT_LT(faceNormal(*read.scene.objects[0].shape.as<Mesh>()->data, 0).z, 0);
+  }
+}
+
+// --- one rule for all readers -----------------------------------------------------------------------------
+
+/// The bytes of numbers, with the lowest byte first.
+template <class... Numbers>
+std::string bytesOf(Numbers... numbers) {
+  std::string bytes;
+  (bytes.append(reinterpret_cast<const char*>(&numbers), sizeof numbers), ...);
+  return bytes;
+}
+
+/// Two facets, the second flat.
+std::string binaryStl() {
+  std::string stl = std::string(80, ' ') + bytesOf(std::uint32_t{2});
+  for (const float y : {1.0f, 0.0f})
+    stl += bytesOf(0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 2.0f, y, 0.0f, std::uint16_t{0});
+  return stl;
+}
+
+/// Two triangles in binary PLY, the second flat, with the numbers of point 1.
+std::string binaryPly(float x, float normal) {
+  std::string ply = "ply\nformat binary_little_endian 1.0\nelement vertex 4\n";
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"})
+    ply += "property float " + std::string(name) + "\n";
+  ply += "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string up = bytesOf(0.0f, 0.0f, 1.0f);
+  ply += bytesOf(0.0f, 0.0f, 0.0f) + up + bytesOf(x, 0.0f, 0.0f, 0.0f, 0.0f, normal);
+  ply += bytesOf(1.0f, 1.0f, 0.0f) + up + bytesOf(0.0f, 1.0f, 0.0f) + up;
+  for (const auto& [a, b, c] : {std::array{0, 2, 3}, std::array{0, 1, 1}}) ply += bytesOf('\3', a, b, c);
+  return ply;
+}
+
+std::string gltfWith(const std::string& attribute, const std::vector<float>& numbers, int each) {
+  return test::Square().attribute(attribute, numbers, each).text();
+}
+
+TEST(Repairs, EveryFlawOfEveryReaderHasAPlace) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const std::string lines = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
+  const auto pointsWith = [&](const std::string& properties, const std::string& rows) {
+    std::string all = lines;
+    for (const char name : properties) all += std::string("property float ") + name + "\n";
+    return ply(all + "element face 1\n" + kFace, rows + "4 0 1 2 3\n");
+  };
+  const auto normals = [](std::string text) {
+    const std::string from = "property float n\nproperty float m\nproperty float o\n";
+    text.replace(text.find(from), from.size(), "property float nx\nproperty float ny\nproperty float nz\n");
+    return text;
+  };
+  test::Square flat;
+  flat.primitive()["indices"] = flat.bytes(std::string("\0\1\2\0\0\1", 6), 5121, 6, "SCALAR");
+  test::Square missing;
+  missing.primitive()["indices"] = missing.bytes(std::string("\0\1\2\0\1\7", 6), 5121, 6, "SCALAR");
+  const std::string first = " in meshes[0].primitives[0]";
+  struct Case {
+    std::string file, bytes, expected;
+  };
+  const std::vector<Case> cases = {
+      // triangles without area
+      {"a.obj", kSquare + "f 1 2 3\nf 1 1 2\nf 2 2 3\n", "6:1: triangles without area are left out: 2\n"},
+      {"a.off", "OFF\n4 3 0\n" + kPoints + "3 0 1 2\n3 0 0 1\n3 1 1 2\n",
+       "8:1: triangles without area are left out: 2\n"},
+      {"a.ply", ply(kVertex + "element face 2\n" + kFace, kPoints + "3 0 1 2\n3 1 1 2\n"),
+       "15:1: triangles without area are left out: 1\n"},
+      {"a.ply", binaryPly(1, 1), "triangles without area are left out: 1, first at byte 332 of the file\n"},
+      {"a.stl", binaryStl(), "triangles without area are left out: 1, first at facet 1\n"},
+      {"a.gltf", flat.text(), "triangles without area are left out: 1, first at triangle 1" + first},
+      {"a.wrl",
+       "#VRML V2.0 utf8\nShape { geometry\n IndexedFaceSet { coord Coordinate { point [0 0 0, 1 0 0, 0 1 0] "
+       "}\n"
+       " coordIndex [0 1 2 -1 0 0 1 -1] } }\n",
+       "3:2: triangles without area are left out: 1\n"},
+      // points that are not finite, and what uses them
+      {"a.obj", kSquare + "v nan 0 0\nf 1 2 3\nf 1 2 5\n", "5:3: expected a finite number"},
+      {"a.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 3\n3 0 1 2\n",
+       "5:1: points that are not three finite numbers of at most 3.4e38: 1\n8:1: triangles that use such "
+       "points"},
+      {"a.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 oops 0\n0 1 0\n3 0 1 3\n3 0 1 2\n",
+       "5:3: expected a point's three numbers, found \"oops\""},
+      {"a.ply", ply(kVertex + "element face 2\n" + kFace, "0 0 0\n1 0 0\n1 nan 0\n0 1 0\n3 0 1 3\n3 0 1 2\n"),
+       "12:1: points that are not three finite numbers of at most 3.4e38: 1\n15:1: triangles that use such "
+       "points"},
+      {"a.ply",
+       ply(kVertex + "element face 2\n" + kFace, "0 0 0\n1 0 0\n1 oops 0\n0 1 0\n3 0 1 3\n3 0 1 2\n"),
+       "12:3: element \"vertex\": expected a number, found \"oops\""},
+      {"a.ply", binaryPly(kNan, 1),
+       ": 1, first at byte 247 of the file\n0:0: triangles that use such points are left out: 1, first at "
+       "byte 332"},
+      {"a.gltf", gltfWith("POSITION", {0, 0, 0, 1, 0, 0, 1, 1, 0, kNan, 1, 0}, 3),
+       ": 1, first at element 3 of POSITION" + first +
+           ", accessors[4]\n0:0: triangles that use such points are left "
+           "out: 1, first at triangle 1" +
+           first},
+      // normals
+      {"a.obj", kSquare + "vn 0 0 1\nvn nan 0 0\nf 1//1 2//1 3//2\n", "6:1: normals that are not finite"},
+      {"a.obj", kSquare + "vn 0 0 1\nvn 0 0 0\nf 1//1 2//1 3//2\n", "6:1: normals of length 0"},
+      {"a.off", "NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 nan 0 0\n0 1 0 0 0 1\n3 0 1 2\n",
+       "4:1: normals that are not finite"},
+      {"a.off", "NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 0\n0 1 0 0 0 1\n3 0 1 2\n", "4:1: normals of length 0"},
+      {"a.ply", normals(pointsWith("nmo", "0 0 0 0 0 1\n1 0 0 0 0 nan\n1 1 0 0 0 0\n0 1 0 0 0 1\n")),
+       "14:1: normals that are not finite are taken from the faces: 1\n15:1: normals of length 0"},
+      {"a.ply", binaryPly(1, kNan),
+       "normals that are not finite are taken from the faces: 1, first at byte 247 of"},
+      {"a.gltf", gltfWith("NORMAL", {0, 0, 1, 0, 0, kNan, 0, 0, 0, 0, 0, 1}, 3),
+       ": 1, first at element 1 of NORMAL" + first +
+           ", accessors[4]\n0:0: normals of length 0 are taken from the "
+           "faces: 1, first at element 2 of NORMAL"},
+      // texture coordinates
+      {"a.obj", kSquare + "vt 0 0\nvt nan 0\nf 1/1 2/1 3/2\n",
+       "6:1: texture coordinates that are not finite"},
+      {"a.off", "STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 nan 0\n0 1 0 0 1\n3 0 1 2\n",
+       "4:1: texture coordinates that are not finite become 0: 1\n"},
+      {"a.ply", pointsWith("st", "0 0 0 0 0\n1 0 0 1 nan\n1 1 0 1 1\n0 1 0 0 1\n"),
+       "13:1: texture coordinates that are not finite become 0: 1\n"},
+      {"a.gltf", gltfWith("TEXCOORD_0", {0, 0, 1, 0, 1, kNan, 0, 1}, 2),
+       "become 0: 1, first at element 2 of TEXCOORD_0" + first},
+      // colours
+      {"a.off", "COFF\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 1 nan 0 1\n0 1 0 0 1 0 1\n3 0 1 2\n",
+       "4:1: colours of points or faces that are not finite become white: 1\n"},
+      {"a.ply", pointsWith("rgb", "0 0 0 0 0 1\n1 0 0 0 0 nan\n1 1 0 0 0 0\n0 1 0 0 0 1\n"),
+       "14:1: colours of points or faces that are not finite become white: 1\n"},
+      {"a.gltf", gltfWith("COLOR_0", {0, 0, 1, 0, 0, kNan, 0, 0, 0, 0, 0, 1}, 3),
+       "become white: 1, first at element 1 of COLOR_0" + first},
+      // points that are not there
+      {"a.gltf", missing.text(), "are left out: 1, first at triangle 1" + first},
+  };
+  for (const Case& c : cases) {
+    const Read read(c.file, c.bytes);
+    EXPECT_EQ(read.error, "") << c.file << ": " << c.expected;
+    EXPECT_TRUE(read.warns(c.expected)) << c.file << ": " << c.expected << "\nin\n" << read.warnings;
+    EXPECT_GT(read.triangles(), 0u) << c.expected;
   }
 }
 

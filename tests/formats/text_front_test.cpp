@@ -144,7 +144,7 @@ TEST(TextFront, TheNameIsTheSecondWitness) {
   EXPECT_EQ(said("A.OFF", "3 1 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n"), "");
   EXPECT_EQ(said("a.txt", "3 1 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n"), "expected a scene, found other text");
   EXPECT_TRUE(
-      said("a.off", "3 1 0\n0 0 0 1 0 0 0 1 0\n").starts_with("named .off, but it is not sound: expected "));
+      said("a.off", "3 1 0\n0 0 0 1 0 0 0 1 0\n").starts_with("named .off, but not valid as off: expected "));
   EXPECT_EQ(said("a.stl", ""), "named .stl, but it is an empty file");
 }
 

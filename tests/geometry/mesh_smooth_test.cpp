@@ -168,7 +168,7 @@ TEST(MeshSmooth, PolygonsSurviveWhatIsLeftOut) {
   MeshData mesh = cube();
   mesh.triangles.insert(mesh.triangles.begin(), {0, 0, 1});
   for (auto& polygon : mesh.polygons) ++polygon[0];
-  EXPECT_EQ(dropDegenerate(mesh), 1u);
+  EXPECT_EQ(dropDegenerate(mesh).count, 1u);
   EXPECT_EQ(mesh.polygons, cube().polygons);
 }
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "geometry/mesh/mesh.h"
 #include "geometry/shapes/solids/plane.h"
 #include "geometry/shapes/solids/sphere.h"
 #include "render/rays/tracer.h"
@@ -118,6 +119,35 @@ TEST(Bump, APictureOfNormalsSaysThemAlongUAndV) {
   expectNear(normal({0.5, 0.625, 1}, Relief::normals, 1), normalize({0, 0.25, 1}), 1e-6);
   expectNear(normal({0.5, 0.625, 1}, Relief::normalsDown, 1), normalize({0, -0.25, 1}), 1e-6);
   expectNear(normal({0.625, 0.625, 1}, Relief::heights, 1), {0, 0, 1}, 1e-6);
+}
+
+/// A square in the plane z = 0 whose u lies along x and v along y, with these tangents.
+Shape squareWith(const MeshTangent& tangent) {
+  MeshData mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.normals.assign(4, {0, 0, 1});
+  mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.tangents.assign(4, tangent);
+  return Mesh{std::make_shared<const MeshData>(mesh)};
+}
+
+TEST(Bump, TangentsOfAMeshSayHowAPictureOfNormalsLies) {
+  const auto normal = [](const MeshTangent& tangent, const Affine& at, Real from = 5) {
+    const Material material = withNormals({0.625, 0.75, 1}, Relief::normals, 1);
+    return seen(squareWith(tangent), at, material)
+        .at({0.3, 0.4, from}, {0, 0, from > 0 ? -1.0 : 1.0})
+        .shading;
+  };
+  expectNear(normal({{1, 0, 0}, 1}, {}), normalize({0.25, 0.5, 1}), 1e-6);
+  expectNear(normal({{1, 0, 0}, -1}, {}), normalize({0.25, -0.5, 1}), 1e-6);
+  expectNear(normal({{0, 2, 0}, 1}, {}), normalize({-0.5, 0.25, 1}), 1e-6);
+  expectNear(normal({{0, 0, 0}, 1}, {}), normalize({0.25, 0.5, 1}), 1e-6);  // as the texture coordinates say
+  // Mirrored, the square shows its other side; the texture keeps its place on it.
+  const Affine mirror = Affine::translation({1, 0, 0}) * Affine::scaling({-1, 1, 1});
+  const Vec3 mirrored = normal({{1, 0, 0}, 1}, mirror);
+  EXPECT_NEAR(mirrored.x, -normalize({0.25, 0.5, 1}).x, 1e-6);
+  EXPECT_NEAR(mirrored.y, normalize({0.25, 0.5, 1}).y, 1e-6);
 }
 
 TEST(Bump, PicturesOfNormalsTurnWithTheObject) {

@@ -107,7 +107,7 @@ void checkSlopes(const Shape& shape, test::Random& random, int rays) {
     EXPECT_NEAR(seen.uvY.x, 2 * told.x, 1e-4 * most);
 
     // The frame is dual to the gradients.
-    const Vec3 byU = slopes.byU(), byV = slopes.byV();
+    const auto [byU, byV] = slopes.frame();
     if (byU == Vec3{}) return;
     EXPECT_NEAR(dot(slopes.u, byU), 1, 1e-6);
     EXPECT_NEAR(dot(slopes.v, byV), 1, 1e-6);
@@ -149,7 +149,7 @@ TEST(Footprint, GradientsOfASphereAreThoseOfLongitudeAndLatitude) {
   EXPECT_NEAR(length(slopes.u), 1 / (2 * kPi * radius), 1e-6);
   EXPECT_NEAR(slopes.u.y, 1 / (2 * kPi * radius), 1e-6);
   EXPECT_NEAR(length(slopes.v), 1 / (2 * kPi), 1e-6);
-  EXPECT_NEAR(length(slopes.byU()), 2 * kPi * radius, 1e-5);
+  EXPECT_NEAR(length(slopes.frame().u), 2 * kPi * radius, 1e-5);
   EXPECT_NEAR(length(slopes.normal[0]), 0.5, 1e-6);  // curvature 1 / radius
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "shading/texture.h"
@@ -169,6 +170,49 @@ TEST(Brick, WithoutLengthHasNoJoints) {
   planks.size = {0, 0.4, 0};
   EXPECT_EQ(planks.at(at({17, 0.2, 3})), planks.a);
   EXPECT_EQ(planks.at(at({17, 0.4, 3})), planks.b);
+}
+
+// --- solid ----------------------------------------------------------------------------------------------
+
+// The numbers are those of POV-Ray 3.7.
+TEST(SolidPatterns, SpiralsAreCones) {
+  Solid spiral;
+  spiral.kind = SolidPattern::spiral;
+  const auto value = [&](Real away, Real turn, Real z) {
+    return spiral.pattern(at({away * std::cos(2 * kPi * turn), away * std::sin(2 * kPi * turn), z}));
+  };
+  EXPECT_NEAR(value(0.05, 0.1, 0), 0.8, 1e-9);
+  EXPECT_NEAR(value(0.45, 0.1, 0), 0.4, 1e-9);
+  EXPECT_NEAR(value(0.2, 0.43, 0), 0.24, 1e-9);
+  EXPECT_NEAR(value(0.2, 0.1, 0.3), 0.3, 1e-9);
+  spiral.number = 3;
+  EXPECT_NEAR(value(0.37, 0.01 / (2 * kPi), 0), 0.24953, 1e-4);
+}
+
+TEST(SolidPatterns, AGradientReachesTheEndOfItsMap) {
+  Solid gradient;
+  gradient.kind = SolidPattern::gradient;
+  const auto value = [&](Real x) { return gradient.pattern(at({x, 0, 0})); };
+  EXPECT_EQ(value(0), 0);
+  EXPECT_EQ(value(1), 1);
+  EXPECT_EQ(value(2), 0);
+  EXPECT_EQ(value(-0.25), 0.75);
+}
+
+TEST(SolidPatterns, BricksEndInMortar) {
+  Solid brick;
+  brick.kind = SolidPattern::brick;
+  brick.axis = {8, 3, 4.5};
+  brick.number = 0.5;
+  const auto isBrick = [&](Real x, Real y, Real z) { return brick.pattern(at({x, y, z})) == 1; };
+  EXPECT_TRUE(isBrick(7.4, 1, 1));
+  EXPECT_FALSE(isBrick(7.6, 1, 1));
+  EXPECT_FALSE(isBrick(3.6, 4, 1)) << "every other layer is moved by half a brick";
+  EXPECT_FALSE(isBrick(1, 2.6, 1));
+  EXPECT_FALSE(isBrick(1, 1, 1.9)) << "along z it is the other layers";
+  EXPECT_FALSE(isBrick(1, 4, 4.1));
+  for (const Real rounding : {-1e-12, 0.0, 1e-12})
+    EXPECT_TRUE(isBrick(1, rounding, 1)) << "a plane on the border of two layers";
 }
 
 // --- gradient, ramp, mix --------------------------------------------------------------------------------

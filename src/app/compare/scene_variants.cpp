@@ -74,6 +74,7 @@ void dropVertexNormals(MeshData& mesh) {
 
 void invertNormals(MeshData& mesh) {
   for (Vec3f& normal : mesh.normals) normal = {-normal.x, -normal.y, -normal.z};
+  for (MeshTangent& tangent : mesh.tangents) tangent.side = -tangent.side;
   for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
 }
 

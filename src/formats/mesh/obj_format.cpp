@@ -44,6 +44,7 @@ struct Part {
   std::uint32_t material = Model::kNoMaterial;
   Unique<Corner> corners;
   MeshData mesh;
+  std::vector<std::size_t> lines;  ///< the byte of the line of each triangle
   bool hasNormals = false, hasUvs = false;
 };
 
@@ -134,7 +135,7 @@ class ObjReader {
       checkBudget();
       line(text);
     });
-    for (const LateFace& late : late_) face(*parts_[late.part], late.corners);
+    for (const LateFace& late : late_) face(*parts_[late.part], late.corners, late.at);
     finish();
     return std::move(model_);
   }
@@ -144,6 +145,7 @@ class ObjReader {
   struct LateFace {
     std::size_t part;
     std::vector<Corner> corners;
+    std::size_t at;  ///< the byte of its line
   };
 
   // --- lines ---
@@ -312,9 +314,9 @@ class ObjReader {
     if (!smooth_.empty() && corners_.front().normal < 0)
       warn(std::exchange(smooth_, {}), "smoothing groups are not shown: faces without normals look flat");
     if (isBeyond)
-      late_.push_back({part().number, corners_});
+      late_.push_back({part().number, corners_, offset(at)});
     else
-      face(part(), corners_);
+      face(part(), corners_, offset(at));
   }
 
   /// Makes corners_ of numbers_, which stand in the line, where the file has `most` in all. False, with a
@@ -363,7 +365,7 @@ class ObjReader {
   }
 
   /// A face that uses a point which is not finite is left out: the line of the point has its warning.
-  void face(Part& to, std::span<const Corner> corners) {
+  void face(Part& to, std::span<const Corner> corners, std::size_t at) {
     const auto isBad = [&](const Corner& corner) {
       return !isFinite(Vec3(points_[static_cast<std::size_t>(corner.point)]));
     };
@@ -371,6 +373,7 @@ class ObjReader {
     polygon_.clear();
     for (const Corner& corner : corners) polygon_.push_back(this->corner(to, corner));
     appendPolygon(to.mesh, polygon_);
+    to.lines.resize(to.mesh.triangles.size(), at);
   }
 
   std::uint32_t corner(Part& to, const Corner& corner) {
@@ -411,7 +414,9 @@ class ObjReader {
       if (part->mesh.triangles.empty()) continue;
       if (!part->hasNormals) part->mesh.normals.clear();
       if (!part->hasUvs) part->mesh.uvs.clear();
-      repairs_.check(part->mesh, place_);
+      repairs_.check(part->mesh, [&](MeshPart what, std::size_t index) {
+        return MeshSpot{placeAt(file_, bytes_, lineOf(*part, what, index))};
+      });
       model_.objects.push_back({part->name,
                                 Mesh{std::make_shared<const MeshData>(std::move(part->mesh))},
                                 {},
@@ -419,6 +424,25 @@ class ObjReader {
                                 place_});
     }
     repairs_.report(place_, messages_);
+  }
+
+  /// The byte of the line that gives that part of its mesh.
+  std::size_t lineOf(const Part& part, MeshPart what, std::size_t index) const {
+    if (what == MeshPart::triangle) return part.lines[index];
+    const Corner& corner = part.corners.keys()[index];
+    if (what == MeshPart::normal && corner.normal >= 0) return lineOf("vn", corner.normal);
+    if (what == MeshPart::uv && corner.uv >= 0) return lineOf("vt", corner.uv);
+    return lineOf("v", corner.point);
+  }
+  /// That of the line with the keyword which has that index among them.
+  std::size_t lineOf(std::string_view keyword, std::int32_t index) const {
+    std::size_t at = 0;
+    std::int32_t count = 0;
+    forEachLine(lines_, [&](std::string_view text) {
+      const std::string_view key = LineWords(text).next();
+      if (sameWord(key, keyword) && count++ == index) at = offset(key);
+    });
+    return at;
   }
 
   /// The colours of its points times that of its material.
@@ -443,8 +467,9 @@ class ObjReader {
     if (!warnings_.again(kind.empty() ? what : kind))
       warnings_.warn(place(at), what + "; " + consequence, std::move(hint), kind.empty() ? what : kind);
   }
-  Place place(std::string_view at) const {
-    return placeAt(file_, bytes_, static_cast<std::size_t>(at.data() - lines_.data()));
+  Place place(std::string_view at) const { return placeAt(file_, bytes_, offset(at)); }
+  std::size_t offset(std::string_view at) const {
+    return static_cast<std::size_t>(at.data() - lines_.data());
   }
 
   const std::string& file_;

@@ -1,6 +1,7 @@
 #include "formats/mesh/off_format.h"
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -47,14 +48,14 @@ bool isOtherDimension(std::string_view word) {
 class OffReader {
  public:
   OffReader(const std::string& file, std::string_view bytes, Messages& messages)
-      : file_(file), size_(bytes.size()), words_(file, bytes, '#'), messages_(messages) {}
+      : file_(file), bytes_(bytes), words_(file, bytes, '#'), messages_(messages) {}
 
   Model read() {
     const std::string_view first = words_.next();
     if (isOtherDimension(first))
       words_.fail("expected points of three dimensions, as in OFF, COFF or NOFF", first);
     std::optional<Kind> kind = kindOf(first);
-    const std::size_t afterFirst = size_ - words_.left();
+    const std::size_t afterFirst = bytes_.size() - words_.left();
     if (const std::string_view word = words_.next(); kind && sameWord(word, "BINARY"))
       words_.fail("binary OFF is not read: expected text", word);
     words_.skipTo(afterFirst);
@@ -68,17 +69,18 @@ class OffReader {
       words_.fail("expected the number of edges, a whole number, found " + toText(edges));
     mesh_.points.reserve(points);
     mesh_.triangles.reserve(faces);
+    pointsAt_ = bytes_.size() - words_.left();
     for (std::size_t i = 0; i < points; ++i) readPoint(*kind);
-    if (kind->color) takeColors();
+    wordsOfPoint_ = 3 + (kind->normal ? 3 : 0) + (kind->color ? 4 : 0) + (kind->uv ? 2 : 0);
+    const FindInFile find = [this](MeshPart part, std::size_t i) { return spotOf(part, i); };
+    if (kind->color) takeColors(find);
     for (std::size_t i = 0; i < faces; ++i) readFace(i);
     if (lost_ && mesh_.triangles.empty()) throw Error(Fault::scene, lost_->place, lost_->what);
     if (faceColors_.count > 0) paintFaces();
     warnings_.report(messages_);
-    if (!words_.atEnd()) messages_.warn(Place{file_, 0, 0, {}}, "what follows the last face is ignored");
-    if (unusable_ > 0)
-      messages_.warn(Place{file_, 0, 0, {}},
-                     "faces of fewer than 3 points are left out: " + std::to_string(unusable_));
-    addOnlyMesh(model_, std::move(mesh_), Place{file_, 0, 0, {}}, messages_);
+    unusable_.report("faces of fewer than 3 points are left out", messages_);
+    if (!words_.next().empty()) messages_.warn(words_.place(), "what follows the last face is ignored");
+    addOnlyMesh(model_, std::move(mesh_), repairs_, find, Place{file_, 0, 0, {}}, messages_);
     return std::move(model_);
   }
 
@@ -101,8 +103,20 @@ class OffReader {
     }
   };
 
+  /// NaN, with a warning, for a word that is no number: it costs the faces that use it.
+  double number(const char* what) {
+    const std::string_view word = words_.next();
+    const auto parsed = parseNumber(word);
+    if (parsed && parsed->length == word.size()) return parsed->value;
+    if (word.empty()) words_.fail("expected " + std::string(what), word);
+    const std::string found =
+        "expected " + std::string(what) + ", found \"" + std::string(word.substr(0, 40));
+    if (!warnings_.again("number")) warnings_.warn(words_.place(), found + "\"", {}, "number");
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
   Vec3f vector(const char* what) {
-    const double x = words_.number(what), y = words_.number(what), z = words_.number(what);
+    const double x = number(what), y = number(what), z = number(what);
     return Vec3f(Vec3{x, y, z});
   }
 
@@ -112,23 +126,30 @@ class OffReader {
     if (kind.normal) mesh_.normals.push_back(vector("a normal's three numbers"));
     if (kind.color) {
       colors_.push_back(vector("a colour's four numbers"));
-      const double alpha = words_.number("a colour's four numbers");
+      const double alpha = number("a colour's four numbers");
       if (alpha < 1) clear_.add(words_);
       if (alpha < 255) clearOf255_.add(words_);
     }
     if (!kind.uv) return;
-    const double u = words_.number("two texture coordinates"), v = words_.number("two texture coordinates");
+    const double u = number("two texture coordinates"), v = number("two texture coordinates");
     mesh_.uvs.push_back({u, v});
   }
 
+  /// The line of a face, or of the point of that index.
+  MeshSpot spotOf(MeshPart part, std::size_t index) const {
+    if (part == MeshPart::triangle) return {words_.placeAt(faceOf_[index])};
+    Words again(file_, bytes_, '#');
+    again.skipTo(pointsAt_);
+    const std::size_t point = painted_.empty() ? index : painted_[index];
+    for (std::size_t i = 0; i <= point * wordsOfPoint_; ++i) again.next();
+    return {again.place()};
+  }
+
   /// Colours are from 0 to 1, or, if any is larger, from 0 to 255.
-  void takeColors() {
+  void takeColors(const FindInFile& find) {
+    repairs_.checkColors(colors_, find);
     float most = 0;
-    for (const Vec3f& color : colors_) {
-      most = std::max({most, color.x, color.y, color.z});
-      if (!std::isfinite(color.x + color.y + color.z))
-        words_.fail("expected colours that are finite numbers");
-    }
+    for (const Vec3f& color : colors_) most = std::max({most, color.x, color.y, color.z});
     const double scale = most > 1 ? 1.0 / 255 : 1;
     const Times& clear = most > 1 ? clearOf255_ : clear_;
     if (clear.count > 0)
@@ -151,9 +172,14 @@ class OffReader {
     while (!numbers.atEnd()) {
       const std::string_view word = numbers.next();
       const auto number = parseNumber(word);
-      if (!number || number->length != word.size() || !std::isfinite(number->value))
-        words_.fail("face " + std::to_string(face) + ": expected a colour after its points, found \"" +
-                    std::string(word.substr(0, 40)) + "\"");
+      if (!number || number->length != word.size() || !std::isfinite(number->value)) {
+        if (!warnings_.again("colour"))
+          warnings_.warn(words_.place(),
+                         "face " + std::to_string(face) + ": expected a colour after its points, found \"" +
+                             std::string(word.substr(0, 40)) + "\"; it has none",
+                         {}, "colour");
+        return {};
+      }
       whole = whole && word.find_first_of(".eE") == word.npos;
       color.push_back(number->value);
     }
@@ -169,7 +195,7 @@ class OffReader {
 
   /// The number of corners, their points, and until the end of the line a colour.
   void readFace(std::size_t number) {
-    const std::size_t corners = count("the number of a face's corners");
+    const std::size_t corners = count("the number of a face's corners"), start = words_.start();
     face_.clear();
     bool good = true;
     for (std::size_t i = 0; i < corners; ++i) {
@@ -184,8 +210,9 @@ class OffReader {
     }
     const std::optional<Vec3f> color = readFaceColor(number);
     if (!good) return;
-    if (corners < 3) ++unusable_;
+    unusable_.add(corners < 3, [&] { return MeshSpot{words_.placeAt(start)}; });
     appendPolygon(mesh_, face_);
+    faceOf_.resize(mesh_.triangles.size(), start);
     constexpr float kPlain = 0.7f;  // as plainMaterial()
     const std::uint32_t painted = palette_.number(color.value_or(Vec3f{kPlain, kPlain, kPlain}));
     if (color) faceColors_.add(words_);
@@ -211,6 +238,7 @@ class OffReader {
       if (!mesh_.normals.empty()) painted.normals.push_back(mesh_.normals[corner.point]);
       if (!mesh_.uvs.empty()) painted.uvs.push_back(mesh_.uvs[corner.point]);
       painted.materials.push_back(corner.color);
+      painted_.push_back(corner.point);
     }
     for (const Vec3f& color : palette_.keys()) model_.colors.push_back({color.x, color.y, color.z});
     mesh_ = std::move(painted);
@@ -226,7 +254,7 @@ class OffReader {
   }
 
   const std::string& file_;
-  std::size_t size_;  ///< size of the file, in bytes
+  std::string_view bytes_;
   Words words_;
   Messages& messages_;
   MeshData mesh_;
@@ -238,7 +266,11 @@ class OffReader {
   std::optional<Message> lost_;  ///< the first that costs a face
   Unique<Vec3f> palette_;
   std::vector<std::uint32_t> triangleColors_;
-  std::size_t unusable_ = 0;
+  CountedFlaw unusable_;  ///< faces of fewer than 3 points
+  MeshRepairs repairs_;
+  std::size_t pointsAt_ = 0, wordsOfPoint_ = 0;
+  std::vector<std::size_t> faceOf_;     ///< the byte of the face of each triangle
+  std::vector<std::uint32_t> painted_;  ///< the points of the file, where faces are coloured
   Model model_;
 };
 

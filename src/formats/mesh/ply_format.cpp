@@ -23,9 +23,9 @@ namespace {
 
 using namespace ply;
 
-/// A face that waits until all is read: a part of the list of corners, and its row.
+/// A face that waits until all is read: a part of the list of corners, the number of its row, and the byte.
 struct Face {
-  std::size_t first, count, number;
+  std::size_t first, count, number, row;
 };
 
 /// The data that make two corners the same point.
@@ -37,7 +37,11 @@ struct SplitCorner {
 class PlyReader {
  public:
   PlyReader(const std::string& file, std::string_view bytes, Messages& messages)
-      : file_(file), messages_(messages), header_(readHeader(file, bytes)), body_(file, bytes, header_) {}
+      : file_(file),
+        bytes_(bytes),
+        messages_(messages),
+        header_(readHeader(file, bytes)),
+        body_(file, bytes, header_) {}
 
   Model read() {
     for (const auto& [word, where] : header_.unknown)
@@ -69,9 +73,13 @@ class PlyReader {
       messages_.warn(body_.firstSurplus(),
                      "expected as many values as the header says, found more; they are ignored (in " +
                          counted(body_.surplus(), "line") + ", first here)");
+    if (body_.wrongWords() > 0)
+      messages_.warn(body_.firstWrong().place, body_.firstWrong().what + "; what uses it is left out (" +
+                                                   counted(body_.wrongWords(), "word") + ", first here)");
     if (lost_ && mesh_.triangles.empty()) throw Error(Fault::scene, lost_->place, lost_->what);
     warnings_.report(messages_);
-    addOnlyMesh(model_, std::move(mesh_), place(), messages_);
+    const auto find = [this](MeshPart part, std::size_t i) { return spotOf(part, i); };
+    addOnlyMesh(model_, std::move(mesh_), repairs_, find, place(), messages_);
     addTexture();
     textures_.report(messages_);
     return std::move(model_);
@@ -98,11 +106,26 @@ class PlyReader {
     }
   }
 
+  /// Where a triangle, or what belongs to a point, is in the file.
+  MeshSpot spotOf(MeshPart part, std::size_t index) const {
+    if (part == MeshPart::triangle) return spotAt(faceOf_[index]);
+    return pointSpot(splitFrom_.empty() ? index : splitFrom_[index]);
+  }
+  MeshSpot pointSpot(std::size_t point) const {
+    return spotAt(beforePoints_->startOfRow(*pointElement_, point));
+  }
+  MeshSpot spotAt(std::size_t byte) const {
+    if (body_.isText()) return {placeAt(file_, bytes_, byte)};
+    return {place(), "byte " + std::to_string(byte) + " of the file"};
+  }
+
   // --- points ---
 
   void readVertices(const Element& element) {
     if (std::exchange(hasVertices_, true)) fail("expected one element \"vertex\", found two");
     body_.checkCount(element);
+    beforePoints_.emplace(body_);
+    pointElement_ = &element;
     for (const auto& names : {std::array{"nx", "ny", "nz"}, std::array{"red", "green", "blue"}}) {
       const auto has = [&](const char* name) { return element.find({name}) >= 0; };
       const auto count = std::count_if(names.begin(), names.end(), has);
@@ -136,7 +159,9 @@ class PlyReader {
     noteUnused(element, columns_);
     body_.readColumns(element, columns_);
     for (std::size_t i = 0; i < uvs.size(); i += 2) mesh_.uvs.push_back({uvs[i], uvs[i + 1]});
-    if (colored) mesh_.materials = palette(colors, propertyOf(element, kColors[0]));
+    if (colored)
+      mesh_.materials = palette(colors, propertyOf(element, kColors[0]),
+                                [this](std::size_t point) { return pointSpot(point); });
     if (!alpha.empty()) noteAlpha(element, alpha);
   }
 
@@ -180,10 +205,14 @@ class PlyReader {
 
   /// Whole numbers count from 0 to the most their type holds, others from 0 to 1. Equal colours become one.
   /// The number of each in the model's colours.
-  std::vector<std::uint32_t> palette(const std::vector<Vec3f>& colors, const Property& property) {
+  template <class SpotOf>
+  std::vector<std::uint32_t> palette(std::vector<Vec3f>& colors, const Property& property,
+                                     const SpotOf& spotOf) {
     const Type type = property.type;
     const double scale = type == Type::uint8 ? 1.0 / 255 : type == Type::uint16 ? 1.0 / 65535 : 1;
     const auto most = static_cast<float>(1 / scale);
+    repairs_.checkColors(
+        colors, [&](MeshPart, std::size_t i) { return spotOf(i); }, most);
     const auto outside = std::count_if(colors.begin(), colors.end(), [&](const Vec3f& c) {
       return !(min(c.x, min(c.y, c.z)) >= 0 && max(c.x, max(c.y, c.z)) <= most);
     });
@@ -194,10 +223,8 @@ class PlyReader {
     std::vector<std::uint32_t> numbers;
     numbers.reserve(colors.size());
     for (const Vec3f& color : colors) numbers.push_back(unique.number(color));
-    for (const Vec3f& color : unique.keys()) {
+    for (const Vec3f& color : unique.keys())
       model_.colors.push_back({color.x * scale, color.y * scale, color.z * scale});
-      if (!isFinite(model_.colors.back())) fail("expected colours that are finite numbers");
-    }
     return numbers;
   }
 
@@ -245,24 +272,30 @@ class PlyReader {
     noteUnused(element, columns, {lists.items, lists.numbers});
     hasFaceUvs_ = lists.numbers >= 0;
     const bool direct = hasVertices_ && !hasFaceUvs_ && !hasFaceColors_;
-    if (direct) mesh_.triangles.reserve(element.count);
+    if (direct) {
+      mesh_.triangles.reserve(element.count);
+      faceOf_.reserve(element.count);
+    }
     std::size_t row = 0;
+    const Body before = body_;
     body_.readLists(element, lists, [&](std::span<const std::uint32_t> corners, std::span<const float> uvs) {
       const std::size_t number = row++;
       if (!isGood(corners, number)) return;
-      if (direct && corners.size() == 3)
+      if (!direct) return keep(corners, uvs, number);
+      if (corners.size() == 3) {
         mesh_.triangles.push_back({corners[0], corners[1], corners[2]});
-      else if (direct)
-        appendPolygon(mesh_, corners);
-      else
-        keep(corners, uvs, number);
+        return faceOf_.push_back(body_.row());
+      }
+      appendPolygon(mesh_, corners);
+      faceOf_.resize(mesh_.triangles.size(), body_.row());
     });
     if (unusable_ > 0)
       messages_.warn(firstUnusable_,
                      "faces of fewer than 3 points are left out: " + std::to_string(unusable_));
     if (hasFaceColors_) {
       faceColorsAt_ = propertyOf(element, kColors[0]).place;
-      faceColors_ = palette(colors, propertyOf(element, kColors[0]));
+      faceColors_ = palette(colors, propertyOf(element, kColors[0]),
+                            [&](std::size_t face) { return spotAt(before.startOfRow(element, face)); });
       if (!alpha.empty()) noteAlpha(element, alpha);
     }
   }
@@ -281,7 +314,7 @@ class PlyReader {
   }
 
   void keep(std::span<const std::uint32_t> corners, std::span<const float> uvs, std::size_t number) {
-    faces_.push_back({corners_.size(), corners.size(), number});
+    faces_.push_back({corners_.size(), corners.size(), number, body_.row()});
     corners_.insert(corners_.end(), corners.begin(), corners.end());
     if (!hasFaceUvs_) return;
     const bool fits = uvs.size() == 2 * corners.size();
@@ -301,11 +334,14 @@ class PlyReader {
       warnings_.warn(faceColorsAt_, "colours of faces are left out: their points have some");
     }
     if (!hasFaceUvs_ && !hasFaceColors_) {
-      for (const Face& face : faces_)
+      for (const Face& face : faces_) {
         appendPolygon(mesh_, std::span(corners_).subspan(face.first, face.count));
+        faceOf_.resize(mesh_.triangles.size(), face.row);
+      }
       return;
     }
     MeshData split;
+    std::vector<std::size_t> rows;
     Unique<SplitCorner> corners;
     std::vector<std::uint32_t> polygon;
     for (const Face& face : faces_) {
@@ -321,15 +357,18 @@ class PlyReader {
         polygon.push_back(number);
         if (number < split.points.size()) continue;
         split.points.push_back(mesh_.points[point]);
+        splitFrom_.push_back(point);
         if (!mesh_.normals.empty()) split.normals.push_back(mesh_.normals[point]);
         if (hasFaceUvs_ || !mesh_.uvs.empty()) split.uvs.push_back(uv);
         if (hasFaceColors_ || !mesh_.materials.empty()) split.materials.push_back(color);
       }
       appendPolygon(split, polygon);
+      rows.resize(split.triangles.size(), face.row);
     }
     if (!mesh_.triangles.empty())
       warnings_.warn(place(), "strips beside faces with colours or uv are left out");
     mesh_ = std::move(split);
+    faceOf_ = std::move(rows);
   }
 
   /// Strips of triangles that turn about, each ended by -1, as scanners write them.
@@ -347,6 +386,7 @@ class PlyReader {
         const bool turned = (i - start) % 2 == 1;
         mesh_.triangles.push_back({points[i - 2], points[turned ? i : i - 1], points[turned ? i - 1 : i]});
       }
+      faceOf_.resize(mesh_.triangles.size(), body_.row());
       ++row;
     };
     body_.readLists(element, {listOf(element)}, strip);
@@ -367,6 +407,7 @@ class PlyReader {
   [[noreturn]] void fail(std::string what) const { throw Error(Fault::scene, place(), std::move(what)); }
 
   const std::string& file_;
+  std::string_view bytes_;
   Messages& messages_;
   Header header_;
   Body body_;
@@ -380,7 +421,12 @@ class PlyReader {
   std::size_t unusable_ = 0, wrongUvs_ = 0;
   Place firstUnusable_{}, firstWrongUvs_{}, faceColorsAt_{};
   bool hasVertices_ = false, hasFaces_ = false, hasFaceColors_ = false, hasFaceUvs_ = false;
-  std::vector<Face> faces_;  ///< that wait
+  MeshRepairs repairs_;
+  std::optional<Body> beforePoints_;  ///< at their first row
+  const Element* pointElement_ = nullptr;
+  std::vector<std::size_t> faceOf_;       ///< the byte of the row of each triangle
+  std::vector<std::uint32_t> splitFrom_;  ///< the points of the file, where corners became points
+  std::vector<Face> faces_;               ///< that wait
   std::vector<std::uint32_t> corners_, faceColors_;
   std::vector<Vec2> cornerUvs_;
 };

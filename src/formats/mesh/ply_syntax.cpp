@@ -68,6 +68,8 @@ T load(const char* from, bool swap) {
   return value;
 }
 
+bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
 std::uint32_t toIndex(double number) {
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   if (!(number >= 0 && number < kNone) || number != std::floor(number)) return kNone;
@@ -248,7 +250,7 @@ Place Body::nextPlace() const {
 
 void Body::beginRow() {
   if (encoding_ == Encoding::text)
-    while (at_ < bytes_.size() && (bytes_[at_] == ' ' || (bytes_[at_] >= '\t' && bytes_[at_] <= '\r'))) ++at_;
+    while (at_ < bytes_.size() && isBlank(bytes_[at_])) ++at_;
   rowAt_ = at_;
 }
 
@@ -297,12 +299,34 @@ double Body::number(Type type) {
     at_ += size;
     return value;
   }
-  while (at_ < bytes_.size() && (bytes_[at_] == ' ' || (bytes_[at_] >= '\t' && bytes_[at_] <= '\r'))) ++at_;
+  while (at_ < bytes_.size() && isBlank(bytes_[at_])) ++at_;
   need(1);
   const auto parsed = parseNumber(bytes_.substr(at_));
-  if (!parsed) fail(what_ + ": expected a number");
-  at_ += parsed->length;
+  const std::size_t end = at_ + (parsed ? parsed->length : 0);
+  if (!parsed || (end < bytes_.size() && !isBlank(bytes_[end]))) return wrongWord();
+  at_ = end;
   return parsed->value;
+}
+
+double Body::wrongWord() {
+  const std::size_t end = std::min(bytes_.find_first_of(" \t\r\n\v\f", at_), bytes_.size());
+  const std::string word(bytes_.substr(at_, std::min<std::size_t>(end - at_, 40)));
+  if (wrongWords_++ == 0)
+    firstWrong_ = {Message::Severity::warning,
+                   placeAt(file_, bytes_, at_),
+                   what_ + ": expected a number, found \"" + word + "\"",
+                   {}};
+  at_ = end;
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+std::size_t Body::startOfRow(const Element& element, std::size_t row) const {
+  Body ahead = *this;
+  Element before = element;
+  before.count = row;
+  ahead.skip(before);
+  ahead.beginRow();
+  return ahead.rowAt_;
 }
 
 std::size_t Body::listLength(const Property& property) {
@@ -366,6 +390,7 @@ void Body::readLists(const Element& element, const Lists& lists, const VisitList
     items.resize(256);
     for (std::size_t row = 0; row < element.count; ++row) {
       need(1);
+      rowAt_ = at_;
       const std::size_t length = static_cast<unsigned char>(bytes_[at_++]);
       need(4 * length);
       const char* from = bytes_.data() + at_;

@@ -95,11 +95,22 @@ class Body {
   std::size_t surplus() const { return surplus_; }
   const Place& firstSurplus() const { return firstSurplus_; }
 
+  /// Words of a text that are no numbers, which are read as NaN, and the first.
+  std::size_t wrongWords() const { return wrongWords_; }
+  const Message& firstWrong() const { return firstWrong_; }
+
+  /// The byte where a row of the element begins, which stands next.
+  std::size_t startOfRow(const Element& element, std::size_t row) const;
+  /// The byte of the row that was read last.
+  std::size_t row() const { return rowAt_; }
+  bool isText() const { return encoding_ == Encoding::text; }
+
   /// Bytes that no element has used, blanks at the end of a text not counted.
   std::size_t left() const;
 
  private:
   double number(Type type);
+  double wrongWord();
   std::size_t listLength(const Property& property);
   void need(std::size_t bytes) const;
   void beginRow();
@@ -112,8 +123,9 @@ class Body {
   std::size_t at_;
   std::string what_;  ///< the row being read, for messages
   bool rowsAreLines_ = false;
-  std::size_t rowAt_ = 0, surplus_ = 0;
+  std::size_t rowAt_ = 0, surplus_ = 0, wrongWords_ = 0;
   Place firstSurplus_{};
+  Message firstWrong_{};
 };
 
 }  // namespace trace::ply

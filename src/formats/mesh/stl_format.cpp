@@ -1,5 +1,6 @@
 #include "formats/mesh/stl_format.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -63,24 +64,27 @@ class Solid {
   /// Where the first of those stands.
   std::size_t firstTurned() const { return firstTurned_; }
 
-  /// `placeOf` gives the place of a byte.
-  template <class PlaceOf>
-  void finish(std::string name, const Place& place, const PlaceOf& placeOf, Model& model,
+  /// `spotOf` gives the spot of a byte.
+  template <class SpotOf>
+  void finish(std::string name, const Place& place, const SpotOf& spotOf, Model& model,
               MeshRepairs& repairs) {
     MeshData mesh;
-    std::optional<std::size_t> firstToRepair;
     mesh.points = points_.keys();
     for (std::size_t i = 0; i + 2 < corners_.size(); i += 3) {
       mesh.triangles.push_back({corners_[i], corners_[i + 1], corners_[i + 2]});
       const Vec3 normal(normals_[i / 3]);
       const Vec3 face = faceNormal(mesh, static_cast<std::uint32_t>(i / 3));
-      if (!(length(face) > 0) && !firstToRepair) firstToRepair = places_[i / 3];
       const Real cosine = dot(normal, face);
       if (!(cosine < -0.5 * length(normal) * length(face))) continue;
       std::swap(mesh.triangles.back()[1], mesh.triangles.back()[2]);
       if (turned_++ == 0) firstTurned_ = places_[i / 3];
     }
-    repairs.check(mesh, firstToRepair ? placeOf(*firstToRepair) : place);
+    repairs.check(mesh, [&](MeshPart what, std::size_t index) {
+      const auto user = std::find(corners_.begin(), corners_.end(), static_cast<std::uint32_t>(index));
+      return spotOf(
+          places_[what == MeshPart::triangle ? index
+                                             : static_cast<std::size_t>(user - corners_.begin()) / 3]);
+    });
     model.objects.push_back({std::move(name),
                              Mesh{std::make_shared<const MeshData>(std::move(mesh))},
                              {},
@@ -96,10 +100,8 @@ class Solid {
   std::size_t turned_ = 0, firstTurned_ = 0;
 };
 
-void warnOfTurned(std::size_t turned, const Place& place, Messages& messages) {
-  if (turned > 0)
-    messages.warn(place, "facets whose corners run the other way round than their normals say are turned: " +
-                             std::to_string(turned));
+void warnOfTurned(const CountedFlaw& turned, Messages& messages) {
+  turned.report("facets whose corners run the other way round than their normals say are turned", messages);
 }
 
 Model readBinary(const Place& place, std::string_view bytes, MeshRepairs& repairs, Messages& messages) {
@@ -115,22 +117,22 @@ Model readBinary(const Place& place, std::string_view bytes, MeshRepairs& repair
   const auto vectorAt = [&](const char* from) {
     return Vec3f{littleFloat(from), littleFloat(from + 4), littleFloat(from + 8)};
   };
-  std::size_t colored = 0;
+  const auto spotOf = [&](std::size_t at) {
+    return MeshSpot{place, "facet " + std::to_string((at - kHeader) / kFacet)};
+  };
+  CountedFlaw colored;
   for (std::size_t at = kHeader; at < end; at += kFacet) {
-    colored += bytes[at + kFacet - 2] != 0 || bytes[at + kFacet - 1] != 0;
+    colored.add(bytes[at + kFacet - 2] != 0 || bytes[at + kFacet - 1] != 0, [&] { return spotOf(at); });
     solid.facet(vectorAt(bytes.data() + at), at);
     for (std::size_t corner = 1; corner <= 3; ++corner)
       solid.corner(vectorAt(bytes.data() + at + 12 * corner));
   }
-  if (colored > 0)
-    messages.warn(place,
-                  "the colours of facets, their last two bytes, are not shown: " + std::to_string(colored));
+  colored.report("the colours of facets, their last two bytes, are not shown", messages);
   if (bytes.substr(0, kHeader).find("COLOR=") != bytes.npos)
     messages.warn(place, "the colour of the header, COLOR=, is not shown");
   Model model;
-  solid.finish(
-      "", place, [&](std::size_t) { return place; }, model, repairs);
-  warnOfTurned(solid.turned(), place, messages);
+  solid.finish("", place, spotOf, model, repairs);
+  warnOfTurned({solid.turned(), spotOf(solid.firstTurned())}, messages);
   return model;
 }
 
@@ -155,7 +157,7 @@ class TextReader {
       messages_.warn(why.place, "facets that are not a normal and three corners are left out: " +
                                     std::to_string(broken_) + ", the first here: " + why.what);
     }
-    warnOfTurned(turned_, words_.placeAt(firstTurned_), messages_);
+    warnOfTurned({turned_, {words_.placeAt(firstTurned_)}}, messages_);
     return std::move(model_);
   }
 
@@ -177,7 +179,8 @@ class TextReader {
     }
     words_.line();  // the name again
     solid.finish(
-        std::move(name), place_, [&](std::size_t at) { return words_.placeAt(at); }, model_, repairs_);
+        std::move(name), place_, [&](std::size_t at) { return MeshSpot{words_.placeAt(at)}; }, model_,
+        repairs_);
     if (turned_ == 0) firstTurned_ = solid.firstTurned();
     turned_ += solid.turned();
   }

@@ -241,7 +241,7 @@ FogNode Reader::fog() {
     } else if (takesName("fog_alt")) {
       f.height = number();
     } else if (takesName("turbulence")) {
-      vector();
+      if (!(vector() == Vec3{})) leaveOut(t, "the turbulence of a fog");
     } else if (t.isName("octaves") || t.isName("omega") || t.isName("lambda") || t.isName("turb_depth")) {
       next();
       number();
@@ -250,7 +250,7 @@ FogNode Reader::fog() {
     } else {
       const Numbers c = color();
       f.color = {c[0], c[1], c[2]};
-      f.filtered = c[4];
+      if (c[3] > 0 || c[4] > 0) leaveOut(t, "the filter or transmit of a fog's colour");
     }
   }
   return f;

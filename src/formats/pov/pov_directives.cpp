@@ -263,7 +263,7 @@ void Reader::directive(const Token& at) {
   }
   if (d == "debug" || d == "render" || d == "statistics" || d == "warning") {
     const std::string said = untilDirective([&] { return text(); });
-    if (d == "warning") warnings_.warn(place(at), "the scene warns: " + said.substr(0, 200));
+    if (d == "debug" || d == "warning") say(at, said);
     return skipSemicolon();
   }
   if (d == "error") {
@@ -665,6 +665,20 @@ std::string Reader::readNamed(const Token& at, const std::string& name) {
     }
   throw Error(Fault::io, place(at),
               "\"" + name + "\" is neither beside the file nor in the library of POV-Ray");
+}
+
+/// Each line of what a scene says of itself, until it says too much.
+void Reader::say(const Token& at, const std::string& text) {
+  constexpr std::size_t kMostLines = 20, kLongest = 200;
+  const std::string by = at.text == "warning" ? "the scene warns: " : "#debug: ";
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const std::string line = by + text.substr(start, std::min(end - start, kLongest));
+    start = end + 1;
+    if (line == by || warnings_.again(line)) continue;
+    if (at.text == "debug" && debugLines_++ >= kMostLines) return;
+    warnings_.warn(place(at), line);
+  }
 }
 
 void Reader::setDefault() {

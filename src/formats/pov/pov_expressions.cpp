@@ -53,15 +53,18 @@ std::optional<int> componentNamed(std::string_view w) {
 
 Real linearOf(Real c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 
+/// Words of animations, whose value depends on whether the scene is part of one.
+bool isOfAnimations(std::string_view w) {
+  return w == "clock_delta" || w == "final_frame" || w == "initial_frame" || w == "final_clock" ||
+         w == "frame_number";
+}
+
 std::optional<Real> constantNamed(std::string_view w) {
   if (w == "pi") return kPi;
   if (w == "tau") return 2 * kPi;
   if (w == "true" || w == "yes" || w == "on") return 1;
   if (w == "false" || w == "no" || w == "off") return 0;
-  if (w == "clock_delta" || w == "final_frame" || w == "initial_frame" || w == "final_clock" ||
-      w == "frame_number")
-    return 1;
-  if (w == "initial_clock" || w == "clock_on") return 0;
+  if (isOfAnimations(w) || w == "initial_clock" || w == "clock_on") return 0;
   if (w == "image_width") return 640;
   if (w == "image_height") return 480;
   if (w == "now") return 0;
@@ -275,6 +278,11 @@ Numbers Reader::primary() {
     if (t.isName("version")) {
       next();
       return Numbers(world_.version);
+    }
+    if (isOfAnimations(t.text)) {
+      next();
+      asksFrame_ = true;
+      return Numbers(frame_);
     }
     if (const auto constant = constantNamed(t.text)) {
       next();

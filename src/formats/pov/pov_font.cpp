@@ -241,6 +241,13 @@ Font::Glyph Font::glyph(std::uint32_t character) const {
   return result;
 }
 
+Real Font::Glyph::left() const {
+  Real least = kInfinity;
+  for (const auto& outline : outlines)
+    for (const auto& p : outline) least = std::min(least, p[0]);
+  return outlines.empty() ? 0 : least;
+}
+
 // --- text { ttf "FONT" "TEXT" THICKNESS, OFFSET } ---
 
 void Reader::textShape(Node& node, const Token& at) {
@@ -286,6 +293,7 @@ void Reader::textShape(Node& node, const Token& at) {
       const auto c = static_cast<unsigned char>(said[i]);
       if (i > 0) pen.x += font.kerning(static_cast<unsigned char>(said[i - 1]), c);
       const Font::Glyph glyph = font.glyph(c);
+      if (i == 0) pen.x = -glyph.left();
       if (!glyph.outlines.empty()) {
         Prism shape;
         shape.spline = Spline::bezier;

@@ -19,6 +19,8 @@ class Font {
   struct Glyph {
     std::vector<std::vector<Point>> outlines;
     Real advance = 0;
+    /// The least x of its outlines: a text begins there.
+    Real left() const;
   };
 
   /// Refers to the bytes. Throws Error(Fault::scene) for what is no such font.

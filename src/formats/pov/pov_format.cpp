@@ -1,6 +1,7 @@
 #include "formats/pov/pov_format.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "formats/pov/pov_reader.h"
@@ -59,10 +60,20 @@ Scene readPov(const std::string& file, std::string_view bytes, Messages& message
   Scene scene;
   scene.file = file;
   scene.format = "pov";
-  pov::Reader reader(file, bytes, scene.inputs, time, messages);
-  const pov::World world = reader.read();
-  pov::addTo(scene, world, reader.warnings());
-  reader.warnings().report(messages);
+  auto reader = std::make_unique<pov::Reader>(file, bytes, scene.inputs, time, messages);
+  pov::World world;
+  try {
+    world = reader->read();
+  } catch (const Error& error) {
+    if (error.fault() != Fault::scene || !reader->asksFrame()) throw;
+    reader = std::make_unique<pov::Reader>(file, bytes, scene.inputs, time, messages);
+    reader->setAnimated();
+    world = reader->read();
+    messages.warn(Place{.file = file},
+                  "frame_number is 1: only as part of an animation can the scene be read");
+  }
+  pov::addTo(scene, world, reader->warnings());
+  reader->warnings().report(messages);
   if (scene.objects.empty()) messages.warn(Place{.file = file}, "no object: the picture will be empty");
   return scene;
 }

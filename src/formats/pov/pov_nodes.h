@@ -2,6 +2,7 @@
 // they are read, so that names share them. pov_scene.h makes a Scene of them.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "formats/pov/pov_values.h"
 #include "geometry/mesh/mesh.h"
 #include "math/color.h"
+#include "shading/pixels.h"
 #include "shading/textures/solid.h"
 
 namespace trace::pov {
@@ -20,6 +22,7 @@ using Omissions = std::vector<std::pair<std::string, Place>>;
 /// A picture that a pattern or a height field names.
 struct ImageNode {
   std::string file;
+  std::shared_ptr<const InsideFile> inside{};  ///< the bytes of one that is not beside the scene
   int mapType = 0;
   bool once = false;
   Real filterAll = 0, transmitAll = 0, bump = 1;
@@ -40,6 +43,7 @@ struct PatternNode {
   ImageNode image;
   Ref<Formula> formula;
   Ref<PigmentNode> pigment;
+  Place place{};
 };
 
 template <class T>
@@ -88,6 +92,7 @@ struct MediaNode {
   Real eccentricity = 0;
   Ref<PigmentNode> density;
   Affine at;
+  Place place{};
 };
 
 struct InteriorNode {
@@ -148,7 +153,6 @@ struct FogNode {
   Color color{};
   int type = 1;
   Real offset = 0, height = 0;
-  Real filtered = 0;
   bool moved = false;
   Place place;
 };

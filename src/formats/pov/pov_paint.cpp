@@ -109,7 +109,7 @@ std::optional<SolidPattern> solidOf(const std::string& kind) {
       {"boxed", SolidPattern::boxed},     {"cylindrical", SolidPattern::cylindrical},
       {"planar", SolidPattern::planar},   {"wrinkles", SolidPattern::wrinkles},
       {"crackle", SolidPattern::crackle}, {"cells", SolidPattern::cells},
-      {"spiral1", SolidPattern::spiral},  {"spiral2", SolidPattern::spiral},
+      {"spiral1", SolidPattern::spiral},  {"spiral2", SolidPattern::weave},
       {"quilted", SolidPattern::quilted}, {"waves", SolidPattern::waves},
       {"ripples", SolidPattern::ripples}, {"dents", SolidPattern::dents},
       {"hexagon", SolidPattern::hexagon}, {"brick", SolidPattern::brick},
@@ -154,6 +154,19 @@ Entries<PigmentNode> usualEntries(const std::string& kind) {
   if (kind == "checker") return {{0, plain(0, 0, 1)}, {1, plain(0, 1, 0)}};
   if (kind == "hexagon") return {{0, plain(0, 0, 1)}, {1, plain(0, 1, 0)}, {2, plain(1, 0, 0)}};
   if (kind == "brick") return {{0, plain(0.3, 0.3, 0.3)}, {1, plain(0.6, 0.15, 0.15)}};
+  if (kind == "agate")
+    return {{0, plain(1, 1, 1)},
+            {0.5, plain(0.95, 0.75, 0.5)},
+            {0.5, plain(0.9, 0.7, 0.5)},
+            {0.6, plain(0.9, 0.7, 0.4)},
+            {1, plain(0.6, 0.3, 0)}};
+  if (kind == "bozo")
+    return {{0.4, plain(1, 1, 1)}, {0.4, plain(0, 1, 0)}, {0.6, plain(0, 1, 0)}, {0.6, plain(0, 0, 1)}};
+  if (kind == "marble")
+    return {{0, plain(0.9, 0.8, 0.8)}, {0.9, plain(0.9, 0.08, 0.08)}, {0.9, plain(0, 0, 0)}};
+  if (kind == "radial")
+    return {{0, plain(0, 1, 1)}, {1.0 / 3, plain(1, 1, 0)}, {2.0 / 3, plain(1, 0, 1)}, {1, plain(0, 1, 1)}};
+  if (kind == "wood") return {{0.6, plain(0.666, 0.312, 0.2)}, {0.6, plain(0.4, 0.133, 0.066)}};
   return {{0, plain(0, 0, 0)}, {1, plain(1, 1, 1)}};
 }
 
@@ -209,6 +222,12 @@ Paint placedBy(Paint p, const Affine& m) {
   return p;
 }
 
+Pixels pixelsOf(const PatternNode& pattern) {
+  const ImageNode& image = pattern.image;
+  if (!image.inside) return {image.file, nullptr, pattern.place};
+  return {image.file, MipMap::decode(image.inside->bytes, image.file), pattern.place, image.inside};
+}
+
 /// The way from one position to the next, as a texture of numbers from 0 to 1.
 Texture stretch(const Texture& number, Real from, Real to) {
   Ramp ramp;
@@ -251,7 +270,7 @@ Texture moved(const Texture& texture, const Affine& m) {
   return wrapped(wrapped(texture, first), second);
 }
 
-bool Painter::knows(const PatternNode& p, const Place& place) {
+bool Painter::knows(const PatternNode& p) {
   if (solidOf(p.kind) || p.kind == "average") return true;
   if (p.kind == "pigment_pattern" && p.pigment) return true;
   if (p.kind == "function" && p.formula) {
@@ -264,12 +283,12 @@ bool Painter::knows(const PatternNode& p, const Place& place) {
   }
   if (p.kind == "image_map") return true;
   const std::string what = "the pattern " + p.kind + " is left out";
-  if (!warnings_.again(what)) warnings_.warn(place, what, "its last colour takes its place");
+  if (isFirst(&p) && !warnings_.again(what)) warnings_.warn(p.place, what, "its last colour takes its place");
   return false;
 }
 
 /// A texture whose luminance is the pattern's number.
-Texture Painter::numberOf(const PatternNode& p, const Place&, bool) {
+Texture Painter::numberOf(const PatternNode& p) {
   Paint grey;
   if (p.kind == "pigment_pattern") {
     grey = paint(*p.pigment, [](const Numbers& c) {
@@ -298,6 +317,7 @@ Texture Painter::numberOf(const PatternNode& p, const Place&, bool) {
 }
 
 void Painter::tell(const Omissions& left) {
+  if (!isFirst(&left)) return;
   for (const auto& [what, place] : left)
     if (!warnings_.again(what)) warnings_.warn(place, what);
 }
@@ -306,14 +326,14 @@ Paint Painter::paint(const PigmentNode& p, const Leaf& leaf, bool uv) {
   tell(p.left);
   if (!p.pattern) return {leaf(p.color), {}};
   const PatternNode& pattern = *p.pattern;
-  if (!knows(pattern, p.place)) {
+  if (!knows(pattern)) {
     if (!p.entries.empty()) return paint(*p.entries.back().second, leaf, uv);
     return {leaf(p.color), {}};
   }
   if (pattern.kind == "image_map") {
     if (pattern.image.file.empty()) return {leaf(p.color), {}};
     ImageMap map;
-    map.file = {pattern.image.file, nullptr, p.place};
+    map.file = pixelsOf(pattern);
     map.srgb = true;
     if (!uv && !p.uv) {
       map.mapping = pattern.image.mapType == 1   ? Mapping::sphere
@@ -322,7 +342,7 @@ Paint Painter::paint(const PigmentNode& p, const Leaf& leaf, bool uv) {
       if (pattern.image.mapType > 2) {
         const std::string what =
             "a picture with map_type " + std::to_string(pattern.image.mapType) + " is left out";
-        if (!warnings_.again(what)) warnings_.warn(p.place, what, "it is laid on flat");
+        if (!warnings_.again(what)) warnings_.warn(pattern.place, what, "it is laid on flat");
       }
     }
     if (pattern.image.once) map.wrapU = map.wrapV = Wrap::clamp;
@@ -367,8 +387,7 @@ Paint Painter::paint(const PigmentNode& p, const Leaf& leaf, bool uv) {
       Ramp r;
       r.value = 1;
       r.ramp = ramp;
-      all = {Color(1),
-             Texture(trace::TextureNode{.model = r, .inputs = {{"value", numberOf(pattern, p.place, uv)}}})};
+      all = {Color(1), Texture(trace::TextureNode{.model = r, .inputs = {{"value", numberOf(pattern)}}})};
     } else if (pattern.kind == "function") {
       trace::Formula f;
       f.value = FormulaText(*pattern.formula->text({"x", "y", "z"}));
@@ -380,7 +399,7 @@ Paint Painter::paint(const PigmentNode& p, const Leaf& leaf, bool uv) {
       all = {Color(1), Texture(trace::TextureNode{.model = s})};
     }
   } else {
-    const Texture number = numberOf(pattern, p.place, uv);
+    const Texture number = numberOf(pattern);
     all = paints.front();
     for (std::size_t i = 1; i < entries.size(); ++i) {
       const Real from = entries[i - 1].first, to = entries[i].first;
@@ -395,6 +414,19 @@ namespace {
 Color rgb(const Numbers& c) { return {c[0], c[1], c[2]}; }
 Real shown(const Numbers& c) { return std::clamp(1 - c[3] - c[4], 0.0, 1.0); }
 Color notBelowZero(const Color& c) { return {std::max(c.r, 0.0), std::max(c.g, 0.0), std::max(c.b, 0.0)}; }
+
+/// The sum of the colours of a pigment, where its map has them.
+Color sumOf(const PigmentNode& p) {
+  Color sum;
+  for (const auto& [at, one] : p.entries) sum = sum + sumOf(*one);
+  return p.entries.empty() ? notBelowZero(rgb(p.color)) : sum;
+}
+
+/// The colour of a density, of luminance 1: a medium has one colour, and its texture holds the amounts.
+Color tintOf(const PigmentNode& density) {
+  const Color sum = sumOf(density);
+  return luminance(sum) > 0 ? sum / luminance(sum) : Color(1);
+}
 
 /// The factor on a bump that makes it as strong as in POV-Ray.
 Real reliefOf(const std::string& kind) {
@@ -422,7 +454,11 @@ Painter::Look Painter::averageOf(const Entries<TextureNode>& entries, const std:
     }
     all.*field = sum;
   }
-  for (const Look& look : looks) all.clear = all.clear && look.clear;
+  for (const Look& look : looks) {
+    all.clear = all.clear && look.clear;
+    if (all.shininess == 0) all.shininess = look.shininess;
+    if (!all.relief) all.relief = look.relief, all.bump = look.bump;
+  }
   return all;
 }
 
@@ -430,17 +466,16 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
   Look l;
   if (!layer.entries.empty() && layer.pattern) {
     const PatternNode& pattern = *layer.pattern;
-    const Place place = layer.pigment ? layer.pigment->place : Place{};
     Entries<TextureNode> entries = spread(pattern.kind, layer.entries);
     std::vector<Look> looks;
     for (const auto& [at, one] : entries) looks.push_back(look(*one, uv));
     l = looks.front();
     if (pattern.kind == "average") {
       l = averageOf(entries, looks);
-    } else if (!knows(pattern, place)) {
+    } else if (!knows(pattern)) {
       l = looks.back();
     } else {
-      const Texture number = numberOf(pattern, place, uv);
+      const Texture number = numberOf(pattern);
       for (std::size_t i = 1; i < looks.size(); ++i) {
         const Texture amount = stretch(number, entries[i - 1].first, entries[i].first);
         const Look& b = looks[i];
@@ -490,11 +525,11 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
     if (layer.normal && layer.normal->pattern && layer.normal->amount != 0) {
       const NormalNode& n = *layer.normal;
       if (solidOf(n.pattern->kind) && !isList(n.pattern->kind)) {
-        l.relief = moved(numberOf(*n.pattern, n.place, uv), n.at);
+        l.relief = moved(numberOf(*n.pattern), n.at);
         l.bump = n.amount * reliefOf(n.pattern->kind) * std::cbrt(std::abs(determinant(n.at)));
       } else {
         const std::string what = "the normal " + n.pattern->kind + " is left out";
-        if (!warnings_.again(what)) warnings_.warn(n.place, what);
+        if (!warnings_.again(what)) warnings_.warn(n.pattern->place, what);
       }
     }
   }
@@ -563,10 +598,11 @@ Material Painter::material(const TextureNode& texture, const InteriorNode* inter
   m.model = phong;
   if (interior)
     for (const MediaNode& medium : interior->media) {
+      const Color tint = medium.density ? tintOf(*medium.density) : Color(1);
       m.mediumDensity = 1;
-      m.mediumGlows = m.mediumGlows + medium.emission;
-      m.mediumAbsorbs = medium.absorption;
-      m.mediumScatters = medium.scattering;
+      m.mediumGlows = medium.emission * tint;
+      m.mediumAbsorbs = medium.absorption * tint;
+      m.mediumScatters = medium.scattering * tint;
       m.mediumForward = std::clamp(medium.eccentricity, -1.0, 1.0);
       if (medium.density) {
         Paint d = paint(*medium.density, [](const Numbers& c) { return notBelowZero(rgb(c)); });
@@ -576,12 +612,12 @@ Material Painter::material(const TextureNode& texture, const InteriorNode* inter
         }
         m.mediumDensity = luminance(d.scale);
       }
-      if (&medium != &interior->media.front()) {
-        const std::string what = "a second media of an interior is left out";
-        if (!warnings_.again(what)) warnings_.warn(Place{}, what);
-      }
       break;
     }
+  if (interior && interior->media.size() > 1 && isFirst(&interior->media)) {
+    const std::string what = "a second media of an interior is left out";
+    if (!warnings_.again(what)) warnings_.warn(interior->media[1].place, what);
+  }
   if (!interior || interior->media.empty()) m.mediumScatters = Color(1);
   return m;
 }

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,8 @@ class Painter {
 
  private:
   void tell(const Omissions& left);
+  /// Whether that part of a texture, whose fields are painted one by one, is met for the first time.
+  bool isFirst(const void* part) { return met_.insert(part).second; }
   struct Look {
     Paint diffuse, ambient, emissive, specular, reflective, transmissive;
     Real shininess = 0, bump = 0;
@@ -42,10 +45,11 @@ class Painter {
   static Look averageOf(const Entries<TextureNode>& entries, const std::vector<Look>& looks);
   Look look(const TextureNode& texture, bool uv);
   Look look(const TextureNode::Layer& layer, bool uv);
-  Texture numberOf(const PatternNode& pattern, const Place& place, bool uv);
-  bool knows(const PatternNode& pattern, const Place& place);
+  Texture numberOf(const PatternNode& pattern);
+  bool knows(const PatternNode& pattern);
 
   WarningsByKind& warnings_;
+  std::set<const void*> met_;
 };
 
 /// The texture moved by `m`.

@@ -48,6 +48,10 @@ class Reader {
   World read();
 
   WarningsByKind& warnings() { return warnings_; }
+  /// Whether the file asks which picture of an animation it is.
+  bool asksFrame() const { return asksFrame_; }
+  /// It is the first of an animation of one picture, and not, as POV-Ray has it by default, of none.
+  void setAnimated() { frame_ = 1; }
 
  private:
   // --- tokens and directives (pov_directives.cpp) ---
@@ -87,6 +91,7 @@ class Reader {
   void callMacro(const Ref<Macro>& macro, const Token& at);
   void include(const Token& at);
   void setDefault();
+  void say(const Token& at, const std::string& text);
   Token raw();
   const Token& rawPeek() const;
   void skipSemicolon();
@@ -237,6 +242,7 @@ class Reader {
   bool pattern(PatternNode& p);
   bool patternModifier(PatternNode& p, Affine& at);
   ImageNode image();
+  void findPicture(const Token& at, ImageNode& image);
   Ref<MapNode> map(const Token& keyword);
   bool startsPattern(const Token& t) const;
 
@@ -268,8 +274,11 @@ class Reader {
     std::size_t frames = 0;
     bool begun = false;  ///< a token of the value was read
   } stop_;
-  Omissions* left_ = nullptr;  ///< omissions of the texture that is read
-  int depth_ = 0;              ///< expressions and objects, one within the other
+  Real frame_ = 0;  ///< value of frame_number and its like
+  bool asksFrame_ = false;
+  std::size_t debugLines_ = 0;  ///< lines of #debug that were reported
+  Omissions* left_ = nullptr;   ///< omissions of the texture that is read
+  int depth_ = 0;               ///< expressions and objects, one within the other
   std::int64_t steps_ = 0;
   std::int64_t madeObjects_ = 0;
   std::vector<std::uint64_t> seeds_;

@@ -120,6 +120,7 @@ void Builder::camera() {
     choose("fisheye-angle", shortest(c.angle > 0 ? std::min(c.angle, 360.0) : 180));
   } else if (c.kind == "panoramic" || c.kind == "cylinder") {
     choose("projection", "cylinder");
+    if (c.kind == "cylinder") to.aspectratio = 4.0 / 3;  // up tells what is seen, not the picture's shape
     if (c.kind == "cylinder") leaveOut(c.place, "that the camera is a cylinder of its own kind");
   } else if (c.kind == "spherical") {
     choose("projection", "panorama");

@@ -80,7 +80,11 @@ bool Reader::shape(const Token& keyword, Node& node) {
   if (w == "sphere_sweep") return sphereSweep(node), true;
   if (w == "superellipsoid") {
     const Numbers e = expression().promoted(2);
-    node.shape = Superellipsoid{std::clamp(e[0], 0.02, 2.0), std::clamp(e[1], 0.02, 2.0)};
+    const auto limited = [](Real v) { return std::clamp(v, 0.02, 2.0); };
+    const std::string what = "exponents of a superellipsoid are limited to 0.02 to 2";
+    if ((limited(e[0]) != e[0] || limited(e[1]) != e[1]) && !warnings_.again(what))
+      warnings_.warn(place(keyword), what);
+    node.shape = Superellipsoid{limited(e[0]), limited(e[1])};
     return true;
   }
   if (w == "quadric") return quadric(node), true;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/files/named_file.h"
+#include "base/files/read_scope.h"
 #include "formats/pov/pov_reader.h"
 
 namespace trace::pov {
@@ -100,6 +102,19 @@ bool Reader::startsPattern(const Token& t) const {
   return t.is(Token::Kind::name) && isAmong(t.text, kPatterns);
 }
 
+/// Takes the bytes of a picture that is beside the file that names it, or in POV-Ray's library, but not
+/// beside the scene. One that is nowhere is reported with the other textures.
+void Reader::findPicture(const Token& at, ImageNode& image) {
+  if (image.file.empty() || namesFile(file_, image.file)) return;
+  try {
+    image.inside = std::make_shared<const InsideFile>(InsideFile{image.file, readNamed(at, image.file)});
+  } catch (const ReadDenied&) {
+    throw;
+  } catch (const Error& error) {
+    if (error.fault() == Fault::limit) throw;
+  }
+}
+
 ImageNode Reader::image() {
   ImageNode image;
   expectMark("{", "before the picture");
@@ -107,6 +122,7 @@ ImageNode Reader::image() {
     const Token t = peek();
     if (startsText()) {
       image.file = text();
+      findPicture(t, image);
     } else if (takesName("map_type")) {
       image.mapType = whole();
     } else if (takesName("once")) {
@@ -152,9 +168,10 @@ bool Reader::pattern(PatternNode& p) {
   if (!startsPattern(t) || valueOf(t)) return false;
   next();
   p.kind = std::string(t.text);
+  p.place = place(t);
   if (p.kind == "gradient") {
     p.vector = vector();
-  } else if (p.kind == "spiral1" || p.kind == "spiral2") {
+  } else if (p.kind == "spiral1" || p.kind == "spiral2" || p.kind == "tiling") {
     p.number = number();
   } else if (p.kind == "image_map" || p.kind == "bump_map" || p.kind == "image_pattern" ||
              p.kind == "material_map") {
@@ -189,6 +206,8 @@ bool Reader::pattern(PatternNode& p) {
         next();
     }
   } else if (p.kind == "quilted" || p.kind == "average" || p.kind == "facets") {
+  } else if (p.kind == "pavement") {
+    omitBlock();
   } else if (p.kind == "slope" || p.kind == "aoi") {
     if (takesMark("{")) {
       while (!takesMark("}")) next();
@@ -743,6 +762,7 @@ Ref<TextureNode> Reader::texture() {
 
 MediaNode Reader::media() {
   MediaNode m;
+  m.place = place(peek());
   expectMark("{", "after media");
   while (!takesMark("}")) {
     const Token t = peek();

@@ -30,8 +30,8 @@ std::optional<Numbers> combined(std::string_view op, const Numbers& a, const Num
   };
   if (op == "=") return Numbers(equal());
   if (op == "!=") return Numbers(!equal());
-  if (op == "<") return Numbers(x < y && std::abs(x - y) > 1e-10);
-  if (op == ">") return Numbers(x > y && std::abs(x - y) > 1e-10);
+  if (op == "<") return Numbers(x < y);  // exact in POV-Ray, too
+  if (op == ">") return Numbers(x > y);
   if (op == "<=") return Numbers(x < y || std::abs(x - y) <= 1e-10);
   if (op == ">=") return Numbers(x > y || std::abs(x - y) <= 1e-10);
   if (op == "&") return Numbers(x != 0 && y != 0);

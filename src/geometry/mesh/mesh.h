@@ -20,6 +20,15 @@ namespace trace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
+/// The direction along which u grows at a point, and the side to which v does: 1 if it is that of normal x
+/// direction, -1 if the texture is mirrored.
+struct MeshTangent {
+  Vec3f direction;
+  float side = 1;
+
+  bool operator==(const MeshTangent&) const = default;
+};
+
 struct MeshData {
   std::vector<Vec3f> points;
   std::vector<Triangle> triangles;       ///< indices into points; counter-clockwise is the front
@@ -27,6 +36,7 @@ struct MeshData {
   std::vector<std::uint32_t> materials;  ///< per point, indices into Scene::materials, or empty
   std::vector<Vec2> uvs;                 ///< per point, or empty
   std::vector<Vec2> secondUvs;           ///< per point, or empty: for pictures that ask for them
+  std::vector<MeshTangent> tangents;     ///< per point, or empty: normal maps follow the texture coordinates
   bool generateNormals = false;          ///< `gennormals`: compile adds averaged face normals
   bool twoSided = false;                 ///< seen from behind, shaded with its normals turned to the eye
 
@@ -38,7 +48,8 @@ struct MeshData {
   bool operator==(const MeshData& other) const {
     return points == other.points && triangles == other.triangles && normals == other.normals &&
            materials == other.materials && uvs == other.uvs && secondUvs == other.secondUvs &&
-           generateNormals == other.generateNormals && twoSided == other.twoSided;
+           tangents == other.tangents && generateNormals == other.generateNormals &&
+           twoSided == other.twoSided;
   }
 };
 

@@ -157,6 +157,7 @@ MeshData subdividedByCatmullClark(const MeshData& mesh, int levels, const std::v
   MeshData result = mesh;
   std::vector<Crease> left = creases;
   result.normals.clear();
+  result.tangents.clear();
   std::vector<Polygon> polygons = polygonsOf(mesh);
   Work work("subdividing a mesh", levels);
   for (int level = 0; level < levels; ++level) {

@@ -34,6 +34,10 @@ MeshData cutInFour(const MeshData& mesh) {
     if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[e.a]);
     addMiddle(result.uvs, mesh.uvs, e.a, e.b);
     addMiddle(result.secondUvs, mesh.secondUvs, e.a, e.b);
+    if (!mesh.tangents.empty()) {
+      const MeshTangent &a = mesh.tangents[e.a], &b = mesh.tangents[e.b];
+      result.tangents.push_back({Vec3f(Vec3(a.direction) + Vec3(b.direction)), a.side});
+    }
     return point;
   };
   for (const Triangle& t : mesh.triangles) {

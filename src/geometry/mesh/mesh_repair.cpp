@@ -89,14 +89,18 @@ void appendPolygon(MeshData& mesh, std::span<const std::uint32_t> corners) {
     cutEars(mesh, corners, normal);
 }
 
-std::size_t dropDegenerate(MeshData& mesh) {
+Degenerate dropDegenerate(MeshData& mesh) {
+  Degenerate found;
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   std::uint32_t kept = 0;
   std::vector<std::uint32_t> place;  // new place of each triangle, once those before it are gone
   if (!mesh.polygons.empty()) place.reserve(count + 1);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (!mesh.polygons.empty()) place.push_back(kept);
-    if (faceNormal(mesh, i) == Vec3{}) continue;
+    if (faceNormal(mesh, i) == Vec3{}) {
+      if (found.count++ == 0) found.first = i;
+      continue;
+    }
     mesh.triangles[kept++] = mesh.triangles[i];
   }
   mesh.triangles.resize(kept);
@@ -107,7 +111,7 @@ std::size_t dropDegenerate(MeshData& mesh) {
       if (place[first + n] - place[first] == n) whole.push_back({place[first], n});
     mesh.polygons = std::move(whole);
   }
-  return count - kept;
+  return found;
 }
 
 std::size_t repairNormals(MeshData& mesh) {

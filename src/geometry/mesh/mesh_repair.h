@@ -19,8 +19,13 @@ void appendPolygon(MeshData& mesh, std::span<const std::uint32_t> corners);
 /// The warning of readers, with a place and the number, when dropDegenerate() has removed some.
 inline constexpr std::string_view kWithoutArea = "triangles without area are left out";
 
-/// Removes triangles without area; returns how many.
-std::size_t dropDegenerate(MeshData& mesh);
+/// The number of triangles without area, and the index of the first.
+struct Degenerate {
+  std::size_t count = 0, first = 0;
+};
+
+/// Removes triangles without area.
+Degenerate dropDegenerate(MeshData& mesh);
 
 /// A normal of length 0 becomes the mean of the unit normals of the faces around its point. (Where normals
 /// are generated they are added to it anyway.) Returns how many.

@@ -85,6 +85,7 @@ MeshData withCreaseNormals(const MeshData& mesh, Real angle) {
       result.normals.push_back(Vec3f(n == Vec3{} ? faces[i] : normalize(n)));
       if (!mesh.uvs.empty()) result.uvs.push_back(mesh.uvs[from]);
       if (!mesh.secondUvs.empty()) result.secondUvs.push_back(mesh.secondUvs[from]);
+      if (!mesh.tangents.empty()) result.tangents.push_back(mesh.tangents[from]);
       if (!mesh.materials.empty()) result.materials.push_back(mesh.materials[from]);
     }
     result.triangles.push_back(triangle);

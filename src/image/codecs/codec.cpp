@@ -183,6 +183,15 @@ Raster decodedBy(const PictureFormat& format, std::string_view bytes, const std:
   return format.decodeLayer(bytes, limits, layer);
 }
 
+/// The name of the format, or of its kind among those of Netpbm, for errors.
+std::string kindName(const PictureFormat& format, std::string_view bytes) {
+  const char kind = format.recognise == isPpm ? bytes[1] : '\0';
+  return kind == '1' || kind == '4'   ? "PBM"
+         : kind == '2' || kind == '5' ? "PGM"
+         : kind == '7'                ? "PAM"
+                                      : std::string(format.name);
+}
+
 /// Calls use(format) with the row the bytes belong to; any failure becomes an Error that names the file.
 template <class Use>
 decltype(auto) withFormatOf(std::string_view bytes, const std::string& name, Use use) {
@@ -197,7 +206,7 @@ decltype(auto) withFormatOf(std::string_view bytes, const std::string& name, Use
     } catch (const Error& e) {
       throw Error(e.fault(), "cannot read \"" + name + "\": " + e.messages().front().what);
     } catch (const std::exception& e) {
-      throw Error(Fault::io, "cannot read \"" + name + "\" as " + std::string(format.name) + ": " + e.what());
+      throw Error(Fault::io, "cannot read \"" + name + "\" as " + kindName(format, bytes) + ": " + e.what());
     }
   }
   const std::string_view foreign = foreignKind(bytes);

@@ -98,8 +98,11 @@ Vec3 World::bentNormal(const Ray& ray, const Hit& hit, Bent what) const {
     if (const ImageMap* map = normalMap(*texture)) {
       const bool down = map->relief == Relief::normalsDown;
       const Color texel = texture->at(place(hit));
-      const SurfaceSlopes along = map->secondUv ? secondSlopes(hit) : slopes(hit);
-      turned += (mappedNormal(texel, along, smooth, scale, down) - smooth) * share;
+      const std::optional<TangentFrame> given = givenFrame(hit);
+      const TangentFrame frame = given           ? *given
+                                 : map->secondUv ? secondSlopes(hit).frame()
+                                                 : slopes(hit).frame();
+      turned += (mappedNormal(texel, frame, smooth, scale, down) - smooth) * share;
     } else
       heights.add(*texture, scale * share);
   }

@@ -126,6 +126,8 @@ class World {
   SurfaceSlopes slopes(const Hit& hit) const { return slopes(hit.object, hit.part, hit.surface); }
   /// Slopes of the second texture coordinates of a mesh.
   SurfaceSlopes secondSlopes(const Hit& hit) const;
+  /// The frame of normal maps, in world space, where the points of a mesh give it.
+  std::optional<TangentFrame> givenFrame(const Hit& hit) const;
   /// Where textures are asked for the place; with the footprint of the ray that has arrived there, if any.
   TexturePlace place(const Hit& hit, const Differentials* arrived = nullptr) const {
     return place(hit.object, hit.part, hit.surface, arrived);

@@ -145,6 +145,28 @@ SurfaceSlopes World::secondSlopes(const Hit& hit) const {
   return slopes;
 }
 
+std::optional<TangentFrame> World::givenFrame(const Hit& hit) const {
+  const Instance& instance = instanceOf(hit.object);
+  if (!instance.mesh || instance.mesh->data().tangents.empty()) return {};
+  const MeshData& mesh = instance.mesh->data();
+  const auto number = static_cast<std::uint32_t>(hit.part);
+  const Triangle& t = mesh.triangles[number];
+  const TriangleHit at =
+      Barycentric(corners(mesh, number)).at(objectFromWorld(hit.object) * hit.surface.point);
+  Vec3 u;
+  Real side = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const MeshTangent& tangent = mesh.tangents[t[i]];
+    u += Vec3(tangent.direction) * at.b[i];
+    side += tangent.side * at.b[i];
+  }
+  const Vec3 v = cross(trace::surface(mesh, number, at).shading, u) * (side < 0 ? -1 : 1);
+  const Affine out = worldFromObject(hit.object);
+  const TangentFrame frame{linear(out, u), linear(out, v)};
+  const bool tells = length(frame.u) > 0 && length(frame.v) > 0 && isFinite(frame.u) && isFinite(frame.v);
+  return tells ? std::optional(frame) : std::nullopt;
+}
+
 std::optional<SurfacePoint> World::raised(const Hit& hit, bool turned) const {
   const Instance& instance = instanceOf(hit.object);
   if (!instance.mesh || instance.mesh->data().normals.empty()) return {};

@@ -31,6 +31,7 @@ enum class SolidPattern {
   crackle,
   cells,
   spiral,
+  weave,
   quilted,
   waves,
   ripples,
@@ -39,10 +40,11 @@ enum class SolidPattern {
   brick,
   checker,
 };
-constexpr std::array<std::string_view, 24> names(SolidPattern) {
-  return {"bozo",   "agate",     "granite", "gradient",    "leopard", "onion",    "marble",  "wood",
-          "radial", "spherical", "boxed",   "cylindrical", "planar",  "wrinkles", "crackle", "cells",
-          "spiral", "quilted",   "waves",   "ripples",     "dents",   "hexagon",  "brick",   "checker"};
+constexpr std::array<std::string_view, 25> names(SolidPattern) {
+  return {"bozo",    "agate",   "granite",   "gradient", "leopard",     "onion",  "marble",
+          "wood",    "radial",  "spherical", "boxed",    "cylindrical", "planar", "wrinkles",
+          "crackle", "cells",   "spiral",    "weave",    "quilted",     "waves",  "ripples",
+          "dents",   "hexagon", "brick",     "checker"};
 }
 
 enum class SolidWave { saw, triangle, sine, scallop, cubic, power };
@@ -133,10 +135,8 @@ struct Solid : PatternColors {
         const std::int64_t cell[3]{cellOf(p.x).whole, cellOf(p.y).whole, cellOf(p.z).whole};
         return cellBits(cell, 3, 5) * 0x1p-32;
       }
-      case SolidPattern::spiral: {
-        const Real around = std::atan2(p.x, p.y) / (2 * kPi) + 0.5, away = std::hypot(p.x, p.y);
-        return away + 0.5 + around * number;
-      }
+      case SolidPattern::spiral: return peak(spiralAt(p, 1));
+      case SolidPattern::weave: return std::abs(peak(spiralAt(p, 1)) - peak(spiralAt(p, -1)));
       case SolidPattern::quilted: {
         const auto middle = [](Real x) { return x - std::floor(x) - 0.5; };
         return std::min(1.0, length(Vec3{middle(p.x), middle(p.y), middle(p.z)}));
@@ -193,11 +193,10 @@ struct Solid : PatternColors {
   Real waved(Real value) const {
     const bool repeats = kind == SolidPattern::gradient || kind == SolidPattern::onion ||
                          kind == SolidPattern::marble || kind == SolidPattern::wood ||
-                         kind == SolidPattern::spiral || kind == SolidPattern::radial || frequency != 1 ||
-                         phase != 0;
+                         kind == SolidPattern::radial || frequency != 1 || phase != 0;
     Real t = value;
     if (kind != SolidPattern::waves && kind != SolidPattern::ripples) t = t * frequency + phase;
-    if (repeats) t -= std::floor(t);
+    if (repeats && !(t >= 0 && t <= 1)) t -= std::floor(t);  // 1 itself is the end of the map
     switch (wave) {
       case SolidWave::saw: return t;
       case SolidWave::triangle: return t < 0.5 ? 2 * t : 2 * (1 - t);
@@ -226,14 +225,25 @@ struct Solid : PatternColors {
     const std::int64_t id = column - half + 2 * row;
     return static_cast<int>(((id % 3) + 3) % 3);
   }
-  /// 0 for mortar, 1 for brick.
+  /// Spirals on cones around z that turn that way: whole numbers lie on one.
+  Real spiralAt(const Vec3& p, Real turn) const {
+    const Real around = std::atan2(p.y, p.x) / (2 * kPi) + 0.25;
+    return std::hypot(p.x, p.y) + p.z + turn * number * around;
+  }
+  /// 0 at whole numbers, 1 half way between them.
+  static Real peak(Real t) { return 1 - std::abs(1 - 2 * (t - std::floor(t))); }
+  /// 0 for mortar, 1 for brick. Mortar ends where the next brick begins. A surface that lies on such a border
+  /// is brick, whatever its points are rounded to.
   Real brickAt(const Vec3& p) const {
-    const auto cell = [](Real x, Real size) { return size > 0 ? x / size : 0; };
-    const auto isJoint = [&](Real t, Real size) { return size > 0 && (t - std::floor(t)) * size <= number; };
+    constexpr Real kBorder = 1e-9;  // in bricks
+    const auto cell = [](Real x, Real size) { return size > 0 ? x / size + kBorder : 0; };
+    const auto isJoint = [&](Real t, Real size) {
+      return size > 0 && (1 - (t - std::floor(t))) * size <= number;
+    };
     const Real y = cell(p.y, axis.y);
     Real x = cell(p.x, axis.x), z = cell(p.z, axis.z);
     if (isJoint(y, axis.y)) return 0;
-    if (cellOf(y).whole % 2 != 0) x += 0.5, z += 0.5;
+    (cellOf(y).whole % 2 != 0 ? x : z) += 0.5;
     return isJoint(x, axis.x) || isJoint(z, axis.z) ? 0 : 1;
   }
 };

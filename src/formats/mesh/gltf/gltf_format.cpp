@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -45,18 +46,17 @@ class GltfReader {
     for (const Vec3f& color : colors_.keys()) model_.colors.push_back({color.x, color.y, color.z});
     repairs_.report(place_, messages_);
     looks_.report();
-    const auto warn = [&](const char* what, std::size_t count) {
-      if (count > 0) messages_.warn(place_, std::string(what) + ": " + std::to_string(count));
-    };
-    warn("points and lines are left out", lines_);
-    warn("the picture is seen through the first camera; others are left out", otherCameras_);
-    warn("the transparency of COLOR_0 is left out", clearColors_);
-    warn("triangles that use points which are not there are left out", lostTriangles_);
-    warn("meshes without the texture coordinates of their pictures show the top left corner", withoutUvs_);
-    warn("tangents that do not lie along the texture coordinates are not shown: triangles", foreignTangents_);
-    warn("corners at the end of a mesh that make no whole triangle are left out", leftOver_);
-    warn("joints of points that their skin does not have are left out", pose_->lostJoints());
-    warn("objects are left out whose transform makes them flat, or infinitely large or small", flat_);
+    lines_.report("points and lines are left out", messages_);
+    otherCameras_.report("the picture is seen through the first camera; others are left out", messages_);
+    clearColors_.report("the transparency of COLOR_0 is left out", messages_);
+    lostTriangles_.report("triangles that use points which are not there are left out", messages_);
+    withoutUvs_.report("meshes without the texture coordinates of their pictures show the top left corner",
+                       messages_);
+    unusedTangents_.report("meshes have TANGENT but no NORMAL; their tangents are ignored", messages_);
+    leftOver_.report("corners at the end of a mesh that make no whole triangle are left out", messages_);
+    lostJoints_.report("joints of points that their skin does not have are left out", messages_);
+    flat_.report("objects are left out whose transform makes them flat, or infinitely large or small",
+                 messages_);
     model_.saysSides = true;
     model_.choices.push_back({"transfer", "srgb", place_});  // its colours are linear light
     return std::move(model_);
@@ -107,6 +107,7 @@ class GltfReader {
       parents[number] = parent;
       const tinygltf::Node& node = gltf_.nodes[number];
       const Affine worldFromNode = worldFromParent * transformOf(node);
+      where_ = "nodes[" + std::to_string(index) + "]";
       read(node, worldFromNode);
       for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
         waiting.push_back({*child, index, worldFromNode});
@@ -129,7 +130,7 @@ class GltfReader {
 
   void read(const tinygltf::Node& node, const Affine& worldFromNode) {
     if (isIndex(node.camera, gltf_.cameras.size()) && model_.camera)
-      ++otherCameras_;
+      otherCameras_.add(1, here());
     else if (isIndex(node.camera, gltf_.cameras.size()))
       readCamera(gltf_.cameras[static_cast<std::size_t>(node.camera)], worldFromNode, place_, model_,
                  messages_);
@@ -147,7 +148,7 @@ class GltfReader {
              node, [this](int i) { return elements(i); }, place_)) {
       const Affine worldFromCopy = worldFromMesh * meshFromCopy;
       if (!invertible(worldFromCopy)) {
-        flat_ += parts.size();
+        flat_.add(parts.size(), here());
         continue;
       }
       for (const Object& part : parts) {
@@ -169,7 +170,11 @@ class GltfReader {
   /// Bent as the node says, if there is one.
   std::vector<Object> partsOf(int mesh, const tinygltf::Node* node) {
     std::vector<Object> parts;
-    for (const tinygltf::Primitive& primitive : gltf_.meshes[static_cast<std::size_t>(mesh)].primitives)
+    const std::string nodeName = where_;
+    const auto& primitives = gltf_.meshes[static_cast<std::size_t>(mesh)].primitives;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+      const tinygltf::Primitive& primitive = primitives[i];
+      where_ = "meshes[" + std::to_string(mesh) + "].primitives[" + std::to_string(i) + "]";
       if (auto data = meshOf(primitive, node); !data.triangles.empty())
         parts.push_back({"",
                          Mesh{std::make_shared<const MeshData>(std::move(data))},
@@ -178,6 +183,8 @@ class GltfReader {
                              ? static_cast<std::uint32_t>(primitive.material)
                              : Model::kNoMaterial,
                          place_});
+    }
+    where_ = nodeName;
     return parts;
   }
 
@@ -206,70 +213,77 @@ class GltfReader {
     const bool strip = primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP,
                fan = primitive.mode == TINYGLTF_MODE_TRIANGLE_FAN;
     if (!triangles && !strip && !fan) {
-      ++lines_;
+      lines_.add(1, here());
       return mesh;
     }
     mesh.points = vectors(primitive, "POSITION", 0);
     if (mesh.points.empty()) return mesh;
     mesh.normals = vectors(primitive, "NORMAL", mesh.points.size());
-    if (node) pose_->bend(*node, primitive, mesh);
+    readTangents(primitive, mesh);
+    if (node) lostJoints_.add(pose_->bend(*node, primitive, mesh), here());
     readUvs(primitive, mesh);
     readColors(primitive, mesh);
 
     const std::vector<std::uint32_t> corners = cornersOf(primitive, mesh.points.size());
-    leftOver_ += triangles ? corners.size() % 3 : 0;
-    for (std::size_t i = 2; i < corners.size(); i += triangles ? 3 : 1) {
+    leftOver_.add(triangles ? corners.size() % 3 : 0, here());
+    std::vector<std::size_t> numbers;  // former index of each triangle
+    std::size_t number = 0;
+    for (std::size_t i = 2; i < corners.size(); i += triangles ? 3 : 1, ++number) {
       const bool turned = strip && i % 2 == 1;
       const std::uint32_t a = corners[fan ? 0 : i - 2], b = corners[i - 1], c = corners[i];
-      if (a != kNoPoint && b != kNoPoint && c != kNoPoint)
-        mesh.triangles.push_back({turned ? b : a, turned ? a : b, c});
-      else
-        ++lostTriangles_;
+      if (a == kNoPoint || b == kNoPoint || c == kNoPoint) {
+        lostTriangles_.add(1, [&] {
+          return MeshSpot{place_, "triangle " + std::to_string(number) + " in " + where_};
+        });
+        continue;
+      }
+      mesh.triangles.push_back({turned ? b : a, turned ? a : b, c});
+      numbers.push_back(number);
     }
-    if (mesh.triangles.empty() && !wrongCorner_.empty()) fail(wrongCorner_);
-    noteTangents(primitive, mesh);
-    repairs_.check(mesh, place_);
+    if (mesh.triangles.empty() && !wrongCorner_.empty()) fail(where_ + ": " + wrongCorner_);
+    repairs_.check(mesh, [&](MeshPart part, std::size_t i) {
+      return part == MeshPart::triangle
+                 ? MeshSpot{place_, "triangle " + std::to_string(numbers[i]) + " in " + where_}
+                 : elementSpot(primitive, part, i);
+    });
     return mesh;
   }
 
-  /// Normal maps lie as the texture coordinates say. Exporters compute tangents from those: only others would
-  /// change the picture.
-  void noteTangents(const tinygltf::Primitive& primitive, const MeshData& mesh) {
-    const auto found = primitive.attributes.find("TANGENT");
-    if (found == primitive.attributes.end() || !isIndex(primitive.material, gltf_.materials.size())) return;
-    const tinygltf::NormalTextureInfo& map =
-        gltf_.materials[static_cast<std::size_t>(primitive.material)].normalTexture;
-    const auto [first, second] = looks_.uvSets(primitive.material);
-    if (map.index < 0 || (first != map.texCoord && second != map.texCoord)) return;
-    const std::vector<Vec3f> points = vectors(primitive, "POSITION", 0);  // before they are bent
-    const GltfElements tangents = elements(found->second);
-    const bool fit = tangents.components() == 4 && tangents.count() == points.size();
-    constexpr std::size_t kFew = 50;  // one in so many may be at a seam
-    const std::size_t others =
-        fit ? foreignTangents(points, first == map.texCoord ? mesh.uvs : mesh.secondUvs, mesh, tangents)
-            : mesh.triangles.size();
-    if (others > mesh.triangles.size() / kFew) foreignTangents_ += others;
+  /// An element of an attribute of the primitive that is being read.
+  MeshSpot elementSpot(const tinygltf::Primitive& primitive, MeshPart part, std::size_t index) const {
+    const auto uvSet = looks_.uvSets(primitive.material)[0].value_or(0);
+    const std::string attribute = part == MeshPart::point    ? "POSITION"
+                                  : part == MeshPart::normal ? "NORMAL"
+                                  : part == MeshPart::color  ? "COLOR_0"
+                                                             : "TEXCOORD_" + std::to_string(uvSet);
+    const auto found = primitive.attributes.find(attribute);
+    const std::string accessor =
+        found == primitive.attributes.end() ? "" : ", accessors[" + std::to_string(found->second) + "]";
+    return {place_, "element " + std::to_string(index) + " of " + attribute + " in " + where_ + accessor};
   }
 
-  /// How many triangles have tangents of another direction, or handedness, than their texture coordinates.
-  static std::size_t foreignTangents(const std::vector<Vec3f>& points, const std::vector<Vec2>& uvs,
-                                     const MeshData& mesh, const GltfElements& tangents) {
-    constexpr Real kClose = 0.5;  // cosine: tangents are means over several faces
-    std::size_t count = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-      const Vec3 ab = Vec3(points[b]) - Vec3(points[a]), ac = Vec3(points[c]) - Vec3(points[a]);
-      const Real ub = uvs[b].x - uvs[a].x, vb = uvs[b].y - uvs[a].y, uc = uvs[c].x - uvs[a].x,
-                 vc = uvs[c].y - uvs[a].y, turn = ub * vc - uc * vb;
-      const Vec3 along = (ab * vc - ac * vb) * (turn < 0 ? -1 : 1);
-      const auto isOther = [&](std::uint32_t point) {
-        const Vec3 tangent(tangents.vector(point));
-        return dot(tangent, along) < kClose * length(tangent) * length(along) ||
-               (tangents.number(point, 3) < 0) != (turn < 0);
-      };
-      const bool hasDirection = turn != 0 && along != Vec3{};
-      count += hasDirection && isOther(a) && isOther(b) && isOther(c);
-    }
-    return count;
+  /// Makes a spot of the node or primitive that is being read.
+  std::function<MeshSpot()> here() const {
+    return [this] { return MeshSpot{place_, where_}; };
+  }
+
+  /// Whether the material, or its clear coat, has one.
+  bool hasNormalMap(int material) const {
+    if (!isIndex(material, model_.materials.size())) return false;
+    const auto& textures = model_.materials[static_cast<std::size_t>(material)].textures;
+    return textureOf(textures, "bump") || textureOf(textures, "clearcoat_bump");
+  }
+
+  /// The frame of normal maps, where the file gives it. Without NORMAL it is to be ignored (section 3.7.2.1).
+  void readTangents(const tinygltf::Primitive& primitive, MeshData& mesh) {
+    const auto found = primitive.attributes.find("TANGENT");
+    if (found == primitive.attributes.end() || !hasNormalMap(primitive.material)) return;
+    if (mesh.normals.empty()) return unusedTangents_.add(1, here());
+    const GltfElements from = elements(found->second);
+    if (from.components() != 4 || from.count() != mesh.points.size())
+      fail("TANGENT: expected one vector of four for each point");
+    for (std::size_t i = 0; i < from.count(); ++i)
+      mesh.tangents.push_back({from.vector(i), from.number(i, 3) < 0 ? -1.0f : 1.0f});
   }
 
   std::vector<std::uint32_t> cornersOf(const tinygltf::Primitive& primitive, std::size_t points) {
@@ -296,7 +310,7 @@ class GltfReader {
     mesh.uvs = uvsOf(primitive, first.value_or(0), mesh.points.size());
     if (second) mesh.secondUvs = uvsOf(primitive, *second, mesh.points.size());
     const bool lacks = (first && mesh.uvs.empty()) || (second && mesh.secondUvs.empty());
-    withoutUvs_ += lacks;
+    withoutUvs_.add(lacks, here());
     for (auto* uvs : {first ? &mesh.uvs : nullptr, second ? &mesh.secondUvs : nullptr})
       if (uvs && uvs->empty()) uvs->assign(mesh.points.size(), {0, 1});
   }
@@ -315,16 +329,16 @@ class GltfReader {
 
   /// Times the base colour, as the specification says.
   void readColors(const tinygltf::Primitive& primitive, MeshData& mesh) {
-    const std::vector<Vec3f> colors = vectors(primitive, "COLOR_0", mesh.points.size());
+    std::vector<Vec3f> colors = vectors(primitive, "COLOR_0", mesh.points.size());
     if (colors.empty()) return;
+    repairs_.checkColors(colors,
+                         [&](MeshPart part, std::size_t i) { return elementSpot(primitive, part, i); });
     noteAlpha(primitive);
     const bool hasMaterial = isIndex(primitive.material, gltf_.materials.size());
     const Color base =
         hasMaterial ? baseColorOf(model_.materials[static_cast<std::size_t>(primitive.material)]) : Color(1);
-    for (const Vec3f& c : colors) {
-      if (!std::isfinite(c.x + c.y + c.z)) fail("COLOR_0: expected finite numbers");
+    for (const Vec3f& c : colors)
       mesh.materials.push_back(colors_.number(Vec3f(Vec3{c.x * base.r, c.y * base.g, c.z * base.b})));
-    }
   }
 
   /// Colours of points may be transparent where their material allows it.
@@ -334,7 +348,7 @@ class GltfReader {
       return;
     const GltfElements from = elements(primitive.attributes.at("COLOR_0"));
     for (std::size_t i = 0; from.components() > 3 && i < from.count(); ++i)
-      if (from.number(i, 3) < 1) return void(++clearColors_);
+      if (from.number(i, 3) < 1) return clearColors_.add(1, here());
   }
 
   Place place_;
@@ -347,16 +361,17 @@ class GltfReader {
   Unique<Vec3f> colors_;
   MeshRepairs repairs_;
   GltfLooks looks_;
-  std::size_t lines_ = 0;  ///< primitives that are no triangles
-  std::size_t lostTriangles_ = 0;
-  std::string wrongCorner_;  ///< what is wrong with the last triangle that was lost
-  std::size_t withoutUvs_ = 0;
-  std::size_t foreignTangents_ =
-      0;                          ///< triangles with a normal map, whose tangents are not those of their uv
-  std::size_t otherCameras_ = 0;  ///< behind the first
-  std::size_t clearColors_ = 0;   ///< meshes with colours of points that are transparent
-  std::size_t leftOver_ = 0;      ///< corners that make no triangle
-  std::size_t flat_ = 0;          ///< objects that their transform makes flat
+  std::string where_;          ///< the node or primitive that is being read
+  std::string wrongCorner_;    ///< what is wrong with the last triangle that was lost
+  CountedFlaw lines_;          ///< primitives that are no triangles
+  CountedFlaw lostTriangles_;  ///< that use a point which is not there
+  CountedFlaw withoutUvs_;
+  CountedFlaw unusedTangents_;
+  CountedFlaw otherCameras_;  ///< behind the first
+  CountedFlaw clearColors_;   ///< meshes with colours of points that are transparent
+  CountedFlaw leftOver_;      ///< corners that make no triangle
+  CountedFlaw lostJoints_;    ///< that a point names and its skin lacks
+  CountedFlaw flat_;          ///< objects that their transform makes flat
 };
 
 }  // namespace

@@ -227,9 +227,9 @@ bool GltfPose::bends(const tinygltf::Node& node) const {
   return std::any_of(weights.begin(), weights.end(), [](double w) { return w != 0; });
 }
 
-void GltfPose::bend(const tinygltf::Node& node, const tinygltf::Primitive& primitive, MeshData& mesh) {
+std::size_t GltfPose::bend(const tinygltf::Node& node, const tinygltf::Primitive& primitive, MeshData& mesh) {
   morph(weightsOf(gltf_, node), primitive, mesh);
-  if (node.skin >= 0) applySkin(node.skin, primitive, mesh);
+  return node.skin >= 0 ? applySkin(node.skin, primitive, mesh) : 0;
 }
 
 /// Section 3.7.2.2: each target times its weight is added.
@@ -246,12 +246,22 @@ void GltfPose::morph(const std::vector<double>& weights, const tinygltf::Primiti
       for (std::size_t i = 0; i < by.count(); ++i)
         (*vectors)[i] = Vec3f(Vec3((*vectors)[i]) + weights[t] * Vec3(by.vector(i)));
     }
+    const auto tangent = primitive.targets[t].find("TANGENT");
+    if (tangent == primitive.targets[t].end() || mesh.tangents.empty()) continue;
+    const GltfElements by = elements_(tangent->second);
+    if (by.components() != 3 || by.count() != mesh.tangents.size())
+      fail("a morph target's TANGENT: expected one vector for each point");
+    for (std::size_t i = 0; i < by.count(); ++i) {
+      Vec3f& direction = mesh.tangents[i].direction;
+      direction = Vec3f(Vec3(direction) + weights[t] * Vec3(by.vector(i)));
+    }
   }
 }
 
 /// Section 3.7.3: a point moves with the mean of its joints.
-void GltfPose::applySkin(int skin, const tinygltf::Primitive& primitive, MeshData& mesh) {
+std::size_t GltfPose::applySkin(int skin, const tinygltf::Primitive& primitive, MeshData& mesh) {
   const std::vector<Affine>& joints = jointsOf(skin);
+  std::size_t lost = 0;
   std::vector<std::pair<GltfElements, GltfElements>> sets;  // joints and weights, four of each a point
   for (int set = 0;; ++set) {
     const auto joint = primitive.attributes.find("JOINTS_" + std::to_string(set));
@@ -270,7 +280,7 @@ void GltfPose::applySkin(int skin, const tinygltf::Primitive& primitive, MeshDat
         const double w = weight.number(i, k), number = joint.number(i, k);
         if (!(w > 0)) continue;
         if (!(number >= 0 && number < static_cast<double>(joints.size()))) {
-          ++lostJoints_;
+          ++lost;
           continue;
         }
         const Affine& by = joints[static_cast<std::size_t>(number)];
@@ -282,10 +292,15 @@ void GltfPose::applySkin(int skin, const tinygltf::Primitive& primitive, MeshDat
     for (Vec3& row : sum.row) row = row / all;
     sum.offset = sum.offset / all;
     mesh.points[i] = moved(sum, mesh.points[i]);
+    if (!mesh.tangents.empty()) {
+      Vec3f& tangent = mesh.tangents[i].direction;
+      tangent = Vec3f(linear(sum, Vec3(tangent)));
+    }
     if (mesh.normals.empty()) continue;
     const Vec3 normal(mesh.normals[i]);
     mesh.normals[i] = Vec3f(invertible(sum) ? transposed(inverse(sum), normal) : linear(sum, normal));
   }
+  return lost;
 }
 
 const std::vector<Affine>& GltfPose::jointsOf(int index) {

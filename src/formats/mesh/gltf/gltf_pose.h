@@ -44,16 +44,14 @@ class GltfPose {
   /// A mesh with a skin stands in the world, wherever its node does.
   bool isInWorld(const tinygltf::Node& node) const { return node.skin >= 0; }
 
-  /// Moves points and normals of the primitive, all of which are there: first by the morph targets, then by
-  /// the joints.
-  void bend(const tinygltf::Node& node, const tinygltf::Primitive& primitive, MeshData& mesh);
-
-  /// Points that name a joint which their skin lacks; it is left out.
-  std::size_t lostJoints() const { return lostJoints_; }
+  /// Moves points, normals and tangents of the primitive, all of which are there: first by the morph targets,
+  /// then by the joints. Returns the number of joints that a point names and its skin lacks; they are left
+  /// out.
+  std::size_t bend(const tinygltf::Node& node, const tinygltf::Primitive& primitive, MeshData& mesh);
 
  private:
   void morph(const std::vector<double>& weights, const tinygltf::Primitive& primitive, MeshData& mesh) const;
-  void applySkin(int skin, const tinygltf::Primitive& primitive, MeshData& mesh);
+  std::size_t applySkin(int skin, const tinygltf::Primitive& primitive, MeshData& mesh);
   const std::vector<Affine>& jointsOf(int skin);
   [[noreturn]] void fail(const std::string& what) const;
 
@@ -62,7 +60,6 @@ class GltfPose {
   const Place& place_;
   std::vector<Affine> worldFromNode_;          ///< world from node of each node
   std::map<int, std::vector<Affine>> joints_;  ///< skins: from the modelled mesh to the world
-  std::size_t lostJoints_ = 0;
 };
 
 }  // namespace trace

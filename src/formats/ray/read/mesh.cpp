@@ -17,10 +17,10 @@
 namespace trace::rayfile {
 namespace {
 
-constexpr std::array<std::string_view, 18> kMeshFields{
-    "uv",          "shared",    "crease",     "faces",       "gennormals", "material",
-    "materials",   "name",      "lit_by",     "normals",     "points",     "scheme",
-    "sharp_edges", "subdivide", "texture_uv", "texture_uv2", "two_sided",  "not_lit_by"};
+constexpr std::array<std::string_view, 19> kMeshFields{
+    "uv",        "shared",     "crease",      "faces",     "gennormals", "material", "materials",
+    "name",      "lit_by",     "normals",     "points",    "scheme",     "tangents", "sharp_edges",
+    "subdivide", "texture_uv", "texture_uv2", "two_sided", "not_lit_by"};
 
 class MeshReader {
  public:
@@ -81,6 +81,7 @@ class MeshReader {
     if (key == "texture_uv" || key == "map_points")
       return textureCoordinates(uvs_.emplace(value), "texture_uv", data_.uvs);
     if (key == "texture_uv2") return textureCoordinates(secondUvs_.emplace(value), key, data_.secondUvs);
+    if (key == "tangents") return tangents(tangents_.emplace(value));
     if (key == "materials") return vertexMaterials(materialList_.emplace(value));
     if (key == "faces") return isList(faces_.emplace(value), key);
     if (key == "sharp_edges") return isList(sharpEdges_.emplace(value), key);
@@ -138,6 +139,21 @@ class MeshReader {
     return true;
   }
 
+  /// The fourth number of each tells the side of v by its sign.
+  bool tangents(const Item& list) {
+    data_.tangents.clear();
+    if (!isList(list, "tangents")) return false;
+    for (const Item item : list) {
+      Real n[4];
+      if (!numbers(item, n, 4)) {
+        findings_.expected(item, "tangent " + std::to_string(data_.tangents.size()), "(x, y, z, side)");
+        return false;
+      }
+      data_.tangents.push_back({Vec3f(Vec3{n[0], n[1], n[2]}), n[3] < 0 ? -1.0f : 1.0f});
+    }
+    return true;
+  }
+
   /// They inherit from the mesh's material as known at this point of the file.
   bool vertexMaterials(const Item& list) {
     data_.materials.clear();
@@ -151,7 +167,8 @@ class MeshReader {
     return checkCount(normals_, data_.normals.size(), "normals") &&
            checkCount(materialList_, data_.materials.size(), "materials") &&
            checkCount(uvs_, data_.uvs.size(), "texture_uv") &&
-           checkCount(secondUvs_, data_.secondUvs.size(), "texture_uv2");
+           checkCount(secondUvs_, data_.secondUvs.size(), "texture_uv2") &&
+           checkCount(tangents_, data_.tangents.size(), "tangents");
   }
   bool checkCount(const std::optional<Item>& list, std::size_t count, const char* name) {
     if (count == 0 || count == data_.points.size()) return true;
@@ -269,7 +286,7 @@ class MeshReader {
   void repair(const Item& block) {
     if (data_.triangles.empty())
       findings_.warn(faces_.value_or(block), "polymesh: nothing of it can be seen, for it has no faces");
-    if (const std::size_t n = dropDegenerate(data_); n > 0)
+    if (const std::size_t n = dropDegenerate(data_).count; n > 0)
       findings_.warnOfNumber(faces_.value_or(block), std::string(kWithoutArea), n);
     if (const std::size_t n = repairNormals(data_); n > 0)
       findings_.warnOfNumber(normals_.value_or(block), "normals of length 0 are taken from the faces", n);
@@ -284,7 +301,7 @@ class MeshReader {
   MeshData data_;
   MeshOperations operations_;
   std::vector<Crease> creases_;
-  std::optional<Item> normals_, uvs_, secondUvs_, materialList_, faces_, sharpEdges_;
+  std::optional<Item> normals_, uvs_, secondUvs_, tangents_, materialList_, faces_, sharpEdges_;
   bool good_ = true;
 };
 

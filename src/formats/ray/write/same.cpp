@@ -25,8 +25,8 @@ bool sameOperands(const Scene& a, const std::vector<Operand>& x, const Scene& b,
 bool sameMesh(const Scene& a, const MeshData& x, const Scene& b, const MeshData& y) {
   if (&x == &y) return true;
   return x.points == y.points && x.triangles == y.triangles && x.normals == y.normals && x.uvs == y.uvs &&
-         x.secondUvs == y.secondUvs && x.generateNormals == y.generateNormals && x.twoSided == y.twoSided &&
-         sameMaterials(a, x.materials, b, y.materials);
+         x.secondUvs == y.secondUvs && x.tangents == y.tangents && x.generateNormals == y.generateNormals &&
+         x.twoSided == y.twoSided && sameMaterials(a, x.materials, b, y.materials);
 }
 
 /// Without what is made of numbers of materials, which differ from scene to scene.

@@ -356,6 +356,10 @@ class Writer {
       list("texture_uv", mesh.uvs, [&](const Vec2& uv) { tuple(std::array{uv.x, uv.y}); });
     if (!mesh.secondUvs.empty())
       list("texture_uv2", mesh.secondUvs, [&](const Vec2& uv) { tuple(std::array{uv.x, uv.y}); });
+    if (!mesh.tangents.empty())
+      list("tangents", mesh.tangents, [&](const MeshTangent& t) {
+        tuple(std::array{t.direction.x, t.direction.y, t.direction.z, t.side});
+      });
     if (!mesh.materials.empty())
       list("materials", mesh.materials, [&](std::uint32_t material) { writeMaterial(material); });
     writeOwnMaterial(object);
