@@ -77,6 +77,21 @@ TEST(Fur, HangsAndDoesNotEnterItsObject) {
   EXPECT_LE(inside, 20) << "strands slide along the ball";
 }
 
+TEST(Fur, GrowsOnMeshesAndSlidesAlongThem) {
+  Random shape(6);
+  Fur fur = furOn(Mesh{ballMesh(12, shape)});
+  fur.length = 3, fur.gravity = {0, 0, -30}, fur.width = fur.tipWidth = 0.01;
+  const TracedShape hanging = prepare(fur);
+  EXPECT_LT(boundsOf(hanging).low.z, -3);
+  Random random(7);
+  int inside = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 d = random.direction();
+    for (const Crossing& c : crossingsOf(hanging, {Vec3{} - d * 0.6, d})) inside += c.t > 0 && c.t < 1.2;
+  }
+  EXPECT_LE(inside, 20);
+}
+
 TEST(Fur, IsTheSameForTheSameSeedAndKeepsStrandsWhereMoreGrow) {
   Fur fur = furOn(Sphere{});
   const auto seen = [](const Fur& f) {

@@ -40,6 +40,37 @@ struct FurRoot {
 
 using StrandPath = std::vector<Vec3>;
 
+/// An object that strands grow on and slide along.
+struct Ground {
+  Placed placed;
+  Placement placement;
+
+  /// The normal of the first surface that the way enters before its end, if it does.
+  std::optional<Vec3> entered(const Ray& way) const {
+    if (!placed.solid() || spanIn(placed.bounds(), way).empty()) return {};
+    const Ray in = placement.into(way);
+    std::optional<Vec3> normal;
+    Real nearest = 1;
+    const auto meet = [&](const Crossing& c) {
+      if (!(c.t > 0 && c.t < nearest)) return;
+      const Vec3 n = placed.surface(way, c).normal;
+      if (dot(n, way.direction) < 0) normal = n, nearest = c.t;
+    };
+    if (const MeshTree* mesh = placed.meshTree().get()) {
+      NodeCount nodes;
+      std::uint64_t triangles = 0;
+      const auto hit = [&](const MeshHit& m) {
+        meet({m.hit.t, m.triangle});
+        return false;
+      };
+      mesh->crossings(in, nearest, hit, MeshCounts{nodes, triangles});
+    } else {
+      placed.shape().crossings(in, Range{0, nearest}, meet);
+    }
+    return normal;
+  }
+};
+
 /// Throws Error for an object that strands cannot grow on. Its bounds, which may be empty.
 Box3 growsOn(const Operand& operand) {
   if (!invertible(operand.wholeFromOperand))
@@ -56,7 +87,8 @@ class FurGrower {
     for (const Operand& operand : fur.objects.list()) {
       const Box3 box = growsOn(operand);
       if (box.empty()) continue;
-      objects_.emplace_back(operand.shape, operand.wholeFromOperand, made);
+      objects_.push_back(
+          {{operand.shape, operand.wholeFromOperand, made}, Placement(operand.wholeFromOperand)});
       const Real radius = 0.5 * trace::length(box.size());
       size_ = max(size_, radius);
       reach_.push_back((reach_.empty() ? 0 : reach_.back()) + radius * radius);
@@ -64,7 +96,7 @@ class FurGrower {
   }
 
   static int stepsOf(const Fur& fur) {
-    return 6 + static_cast<int>(std::ceil(8 * std::clamp(fur.curl, 0.0, 50.0)));
+    return 8 + static_cast<int>(std::ceil(8 * std::clamp(fur.curl, 0.0, 50.0)));
   }
 
   std::vector<Curves::Strand> strands() {
@@ -95,7 +127,7 @@ class FurGrower {
       StrandChance chance(fur_.seed, line);
       const Real which = chance.between(0, reach_.back());
       const auto number = std::upper_bound(reach_.begin(), reach_.end() - 1, which) - reach_.begin();
-      const Placed& object = objects_[static_cast<std::size_t>(number)];
+      const Placed& object = objects_[static_cast<std::size_t>(number)].placed;
       const Real radius = 0.5 * trace::length(object.bounds().size());
       const Vec3 d = chance.direction(), x = perpendicularTo(d), y = cross(d, x);
       const Real r = radius * std::sqrt(chance.between(0, 1)), phi = chance.between(0, 2 * kPi);
@@ -166,20 +198,11 @@ class FurGrower {
     return d;
   }
 
-  /// The normal of the first surface that a step of the strand enters.
+  /// The normal of a surface that a step of the strand enters.
   std::optional<Vec3> entered(const Ray& way) const {
-    std::optional<Vec3> normal;
-    Real nearest = 1;
-    for (const Placed& object : objects_) {
-      if (!object.solid() || spanIn(object.bounds(), way).empty()) continue;
-      const auto meet = [&](const Crossing& c) {
-        if (!(c.t > 0 && c.t < nearest)) return;
-        const Vec3 n = object.surface(way, c).normal;
-        if (dot(n, way.direction) < 0) normal = n, nearest = c.t;
-      };
-      object.crossings(way, meet);
-    }
-    return normal;
+    for (const Ground& object : objects_)
+      if (const auto normal = object.entered(way)) return normal;
+    return {};
   }
 
   void drawTo(StrandPath& path, const StrandPath& leader) const {
@@ -218,7 +241,7 @@ class FurGrower {
 
   const Fur& fur_;
   const int steps_;
-  std::vector<Placed> objects_;
+  std::vector<Ground> objects_;
   std::vector<Real> reach_;  ///< squared radii around the objects, summed up
   Real size_ = 0;
   std::vector<FurRoot> roots_;
