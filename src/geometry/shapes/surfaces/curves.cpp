@@ -94,18 +94,20 @@ Cubic<4> TracedCurves::cubicOf(std::size_t arc) const {
   return cubic;
 }
 
-/// Each arc is divided into as many pieces as make their boxes fit it well, at most four.
+/// Each arc is divided into as many pieces as make their boxes fit it well: at most four, and one where so
+/// many arcs would take long to build.
 void TracedCurves::build() {
   constexpr std::uint32_t kMostPieces = 4;
-  constexpr Real kSlender = 8;  // widths long
+  constexpr std::size_t kMany = 2'000'000;  // pieces
+  constexpr Real kSlender = 8;              // widths long
   Real length = 0, width = 0;
   for (std::size_t arc = 0; arc < arcs_.size(); ++arc) {
     const Cubic<4> curve = cubicOf(arc);
     length += trace::length(curvePoint(curve, 1) - curvePoint(curve, 0));
     width += 2 * std::abs(curve.at(3, 0.5));
   }
-  if (spline_ != Spline::linear || length > 0)
-    while (pieces_ < kMostPieces && length > kSlender * width * pieces_) pieces_ *= 2;
+  while (pieces_ < kMostPieces && length > kSlender * width * pieces_ && 2 * pieces_ * arcs_.size() <= kMany)
+    pieces_ *= 2;
 
   std::vector<Box3> boxes;
   boxes.reserve(arcs_.size() * pieces_);
