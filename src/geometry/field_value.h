@@ -22,7 +22,7 @@ using Tuples = std::vector<std::array<Real, N>>;
 struct AnyField
     : FieldValue<bool, int, Real, Vec3, std::string, std::vector<std::string>, std::array<Real, 4>, Tuples<2>,
                  Tuples<4>, Tuples<5>, Tuples<8>, Tuples<12>, std::vector<Tuples<2>>, std::vector<Tuples<3>>,
-                 Heights, Operands, MaterialList> {};
+                 std::vector<Tuples<4>>, Heights, Operands, MaterialList> {};
 
 /// The materials that the shape leads between, or that the points of a mesh have; none for most.
 const std::vector<std::uint32_t>& materialsOf(const Shape& shape);

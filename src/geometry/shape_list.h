@@ -15,6 +15,10 @@
 // A shape may add
 //   convex()            a ray that leaves it on the side of its normal does not hit it again
 //
+//   strands()           rays meet its parts only where they enter these: light through a part leaves it
+//   without
+//                       another hit, and the parts shade one another
+//
 // A shape of several materials adds
 //   material(part, own)        the MaterialMix of a crossing; `own` is that of the whole
 //   addMaterials(all)          the indices it may answer with beside that
@@ -57,6 +61,8 @@
 #include "geometry/shapes/solids/supertoroid.h"
 #include "geometry/shapes/solids/torus.h"
 #include "geometry/shapes/surfaces/bezier_patches.h"
+#include "geometry/shapes/surfaces/curves.h"
+#include "geometry/shapes/surfaces/fur.h"
 #include "geometry/shapes/surfaces/height_field.h"
 #include "geometry/shapes/surfaces/isosurface.h"
 #include "geometry/shapes/surfaces/lathe.h"
@@ -74,9 +80,9 @@ namespace trace {
 using ShapeList =
     std::variant<Sphere, Cube, Square, Cylinder, Cone, Conic, Plane, Disk, RoundedBox, Torus, Ellipsoid,
                  EllipticCone, Paraboloid, Hyperboloid, TwoSheets, Quadric, Superellipsoid, Supertoroid,
-                 Lathe, Prism, SphereSweep, Sweep, Plant, BezierPatches, HeightField, Terrain, Metaballs,
-                 Isosurface, Menger, Sierpinski, Ifs, Julia, Mandelbulb, Mandelbox, Union, Intersection,
-                 Difference, Clip, Blend, Puff, Mesh>;
+                 Lathe, Prism, SphereSweep, Sweep, Curves, Fur, Plant, BezierPatches, HeightField, Terrain,
+                 Metaballs, Isosurface, Menger, Sierpinski, Ifs, Julia, Mandelbulb, Mandelbox, Union,
+                 Intersection, Difference, Clip, Blend, Puff, Mesh>;
 
 template <class T>
 concept Traceable = requires(const T& t, const Ray ray, const Crossing crossing) {

@@ -163,6 +163,18 @@ bool TracedShape::convex() const {
       [](const Mesh&) { return false; });
 }
 
+bool TracedShape::strands() const {
+  return withForm(
+      *this,
+      [](const auto& form) {
+        if constexpr (requires { form.strands(); })
+          return form.strands();
+        else
+          return false;
+      },
+      [](const Mesh&) { return false; });
+}
+
 bool TracedShape::ofSeveralMaterials() const {
   return withForm(
       *this,

@@ -35,6 +35,7 @@ class TracedShape {
   void crossings(const Ray& ray, const Range& range, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
   bool convex() const;
+  bool strands() const;
 
   /// Parts of it are of other materials than the whole.
   bool ofSeveralMaterials() const;

@@ -16,6 +16,7 @@
 #include "geometry/shapes/solids/cube.h"
 #include "geometry/shapes/solids/sphere.h"
 #include "geometry/shapes/surfaces/bezier_patches.h"
+#include "geometry/shapes/surfaces/curves.h"
 #include "geometry/shapes/surfaces/prism.h"
 #include "image/codecs/codec.h"
 #include "ray_helpers.h"
@@ -81,6 +82,10 @@ std::string other(std::vector<BezierPatches::Points>& v) {
   std::string points = "(1, 2, 3)";
   for (int i = 1; i < 16; ++i) points += ", (1, 2, 3)";
   return "((" + points + "))";
+}
+std::string other(std::vector<Curves::Strand>& v) {
+  v = {{{1, 2, 3, 4}, {5, 6, 7, 8}}, {}};
+  return "(((1, 2, 3, 4), (5, 6, 7, 8)), ())";
 }
 std::string other(Heights& value) {
   const std::string file = ::testing::TempDir() + "ray_format_heights.png";

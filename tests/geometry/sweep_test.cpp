@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "geometry/shapes/surfaces/prism.h"
+#include "geometry/shapes/surfaces/sphere_sweep.h"
 #include "geometry/traced.h"
 #include "support/shapes.h"
 
@@ -56,6 +57,18 @@ TEST(Sweep, HasTheVolumeOfProfileTimesPath) {
   EXPECT_NEAR(sweepVolume(ring, 80), 1.23370, 3e-3);
   std::reverse(ring.profile.begin(), ring.profile.end());  // either way around
   EXPECT_NEAR(sweepVolume(ring, 80), 1.23370, 3e-3);
+}
+
+TEST(SphereSweep, KnowsTheTextureCoordinatesBesideAHit) {
+  // What strands are combed by: the direction in which u grows.
+  const TracedShape capsule = prepare(SphereSweep{{{0, 0, 0, 0.25}, {0, 0, 1, 0.25}}, Spline::linear});
+  const Ray ray{{3, 0, 0.5}, {-1, 0, 0}};
+  const auto met = crossingsOf(capsule, ray);
+  ASSERT_EQ(met.size(), 2u);
+  for (const Real step : {1e-6, 1e-4}) {
+    const Ray beside{{3, 0, 0.5 + step}, {-1, 0, 0}};
+    EXPECT_NEAR(Vec2(surfaceOf(capsule, beside, met[0]).uv).x, 0.5 + step, 1e-10);
+  }
 }
 
 /// The distance of a place in the plane from an arc; infinite beside its ends.

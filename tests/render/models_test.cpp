@@ -6,6 +6,7 @@
 #include "geometry/shapes/solids/conic.h"
 #include "geometry/shapes/solids/sphere.h"
 #include "geometry/shapes/solids/square.h"
+#include "geometry/shapes/surfaces/curves.h"
 #include "render/integrators/whitted.h"
 #include "render/picture/explain.h"
 #include "shading/lights/directional_light.h"
@@ -146,6 +147,20 @@ TEST(Marschner, LightFromBehindShinesThroughTheStrandButNotThroughOthers) {
   Phong black;
   add(scene, Sphere{}, at(-5, 0, 0.5) * Affine::scaling({2, 2, 2}), black);
   EXPECT_EQ(mean(scene, ray, {}).g, 0);
+}
+
+TEST(Marschner, LightShinesThroughAStrandOfCurvesAndOtherStrandsShadeIt) {
+  Marschner hair;
+  hair.color = Color(0.9), hair.angle = 0;
+  const Curves::Strand front{{10, 0, -5, 2}, {10, 0, 5, 2}}, behind{{5, 0, -5, 4}, {5, 0, 5, 4}};
+  const auto seen = [&](const std::vector<Curves::Strand>& strands) {
+    Scene scene;
+    add(scene, Curves{strands, Spline::linear, true}, Affine{}, hair);
+    scene.lights.push_back({DirectionalLight{.direction = {1, 0, 0}, .color = Color(1)}, {}});
+    return mean(scene, {{20, 0.2, 0.5}, {-1, 0, 0}}, {}).g;  // towards the lamp
+  };
+  EXPECT_GT(seen({front}), 0.05);
+  EXPECT_EQ(seen({front, behind}), 0) << "another strand of the object";
 }
 
 TEST(Models, AreShownAsPhong) {

@@ -597,6 +597,25 @@ TEST(Marschner, WhiteStrandsGiveBackAllLight) {
     EXPECT_NEAR(albedo(strand, world(local(cosine, 0.4)), 50'000).g, 1, 0.01) << cosine;
 }
 
+TEST(Marschner, PigmentsAbsorbAsTheirConcentrationSays) {
+  Marschner hair;
+  hair.eumelanin = 2, hair.pheomelanin = 0.5;
+  EXPECT_NEAR(hair.absorption().g, 2 * 0.697 + 0.5 * 0.4, 1e-12);
+  Marschner same;  // the colour of a head is that whose absorption is the pigments'
+  same.color = hair.headColor();
+  EXPECT_NEAR(same.absorption().r, hair.absorption().r, 1e-9);
+  EXPECT_NEAR(same.absorption().b, hair.absorption().b, 1e-9);
+  const auto brightness = [](Real eumelanin) {
+    const Bsdf strand = with<Marschner>([&](Marschner& m) { m.eumelanin = eumelanin; });
+    return albedo(strand, world(local(0.6, 0.4)), 20'000);
+  };
+  const Color blond = brightness(0.3), brown = brightness(1.3), black = brightness(8);
+  EXPECT_GT(blond.g, 1.3 * brown.g);
+  EXPECT_GT(brown.g, 1.3 * black.g);
+  EXPECT_GT(blond.r, blond.g);
+  EXPECT_GT(blond.g, blond.b);
+}
+
 TEST(Marschner, LightComesThroughAndIsColoured) {
   const Bsdf strand = with<Marschner>([](Marschner& m) { m.color = {0.8, 0.4, 0.1}, m.angle = 0; });
   const Vec3 eye = world({0, 0, 1});

@@ -21,6 +21,8 @@
 #include "geometry/shapes/solids/cube.h"
 #include "geometry/shapes/solids/sphere.h"
 #include "geometry/shapes/surfaces/bezier_patches.h"
+#include "geometry/shapes/surfaces/curves.h"
+#include "geometry/shapes/surfaces/fur.h"
 #include "geometry/shapes/surfaces/prism.h"
 #include "geometry/shapes/surfaces/terrain.h"
 #include "geometry/traced.h"
@@ -105,6 +107,12 @@ std::vector<std::vector<std::array<Real, N>>> variations(std::vector<std::array<
 inline std::vector<std::vector<Prism::Outline>> variations(const std::vector<Prism::Outline>&) {
   return {{{{-0.3, -0.3}, {0.3, -0.3}, {0.3, 0.3}, {-0.2, 0.3}}}};
 }
+inline std::vector<std::vector<Curves::Strand>> variations(const std::vector<Curves::Strand>& strands) {
+  auto two = strands;
+  two.push_back(strands[0]);
+  for (auto& point : two.back()) point[0] *= 0.5, point[2] += 0.75;
+  return {two};
+}
 inline std::vector<Operands> variations(const Operands&) { return {}; }
 inline std::vector<MaterialList> variations(const MaterialList&) { return {{{0, 0}}}; }
 
@@ -125,6 +133,10 @@ inline Shape typical(const ShapeType& type) {
   if (auto* plant = shape.edit<Plant>()) {
     plant->iterations = 3;
     plant->radius = 0.1;
+  }
+  if (auto* fur = shape.edit<Fur>()) {
+    fur->count = 60;
+    fur->width = 0.1, fur->tipWidth = 0.05;
   }
   if (auto* terrain = shape.edit<Terrain>()) {
     terrain->points = 33;

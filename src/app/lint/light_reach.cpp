@@ -209,8 +209,7 @@ class LightSearch {
         arriving->scattered(scatter(at.bsdf(), at.frame, arriving->toLight, -at.ray.direction));
     if (isBlack(scattered) && !goesOn(at)) return ++light.behind, false;
     if (at.material.shadow < 1 || !world_.lightCastsShadows(light.number)) return true;
-    Ray toward = at.leaveToLight(arriving->toLight);
-    if (at.material.litThrough) toward.leaves = at.hit.object;
+    const Ray toward = at.leaveToLight(arriving->toLight);
     if (!isBlack(pixels_.tracer().visible(at.hit, toward, arriving->distance, at.inside))) return true;
     if (const auto found = pixels_.tracer().look(toward, RayKind::shadow)) ++light.blockedBy[found->object];
     return false;

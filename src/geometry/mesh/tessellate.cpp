@@ -8,7 +8,10 @@
 #include "base/budget.h"
 #include "base/looks.h"
 #include "geometry/mesh/mesh.h"
+#include "geometry/shapes/surfaces/curves.h"
+#include "geometry/shapes/surfaces/fur.h"
 #include "geometry/traced.h"
+#include "math/perpendicular.h"
 #include "math/transform.h"
 
 namespace trace {
@@ -239,10 +242,48 @@ Box3 drawnBounds(const Shape& shape, const Box3& within) {
   return shape.is<Mesh>() ? box : cutOff(box, within);
 }
 
+namespace {
+
+/// Three-sided tubes around strands, of which at most so many are drawn.
+std::vector<SurfaceCorner> strandCorners(const TracedCurves& curves) {
+  constexpr std::size_t kMostDrawn = 5000, kSides = 3;
+  std::vector<SurfaceCorner> corners;
+  for (const TracedCurves::Strand& strand : curves.drawn(kMostDrawn)) {
+    checkBudget();
+    std::array<SurfaceCorner, kSides> before{};
+    Vec3 side{0, 0, 1};
+    for (std::size_t i = 0; i < strand.size(); ++i) {
+      const auto at = [&](std::size_t k) { return Vec3{strand[k][0], strand[k][1], strand[k][2]}; };
+      const Vec3 along = normalize(at(std::min(i + 1, strand.size() - 1)) - at(i == 0 ? 0 : i - 1));
+      if (!isFinite(along)) continue;
+      const Vec3 turned = normalize(side - along * dot(side, along));
+      side = isFinite(turned) ? turned : perpendicularTo(along);
+      std::array<SurfaceCorner, kSides> ring;
+      for (std::size_t k = 0; k < kSides; ++k) {
+        const Real angle = 2 * kPi * static_cast<Real>(k) / kSides;
+        const Vec3 out = side * std::cos(angle) + cross(along, side) * std::sin(angle);
+        ring[k] = {at(i) + out * strand[i][3], out};
+      }
+      for (std::size_t k = 0; k < kSides && i > 0; ++k) {
+        const SurfaceCorner &a = before[k], &b = before[(k + 1) % kSides], &c = ring[(k + 1) % kSides],
+                            &d = ring[k];
+        corners.insert(corners.end(), {a, b, c, a, c, d});
+      }
+      before = ring;
+    }
+  }
+  return corners;
+}
+
+}  // namespace
+
 std::vector<SurfaceCorner> tessellate(const Shape& shape, int divisions, const Box3& within, int* followed,
                                       bool wanted) {
   if (followed) *followed = divisions;
   if (const auto* mesh = shape.as<Mesh>()) return meshCorners(*mesh->data);
+  std::optional<std::vector<SurfaceCorner>> strands;
+  visitAs<Curves, Fur>(shape, [&](const auto& s) { strands = strandCorners(*s.prepared()); });
+  if (strands) return *std::move(strands);
   const TracedShape form = prepare(shape);
   const Box3 box = cutOff(form.bounds(), within);
   if (!(maxComponent(box.size()) > 0)) return {};

@@ -164,8 +164,7 @@ Color Paths::fromLight(Path& path) const {
   path.towardEnd = arriving->toLight;
   const Color all = from.place.scattered(*arriving);
   if (isBlack(all)) return all;
-  Ray ray = from.place.leave(arriving->toLight);
-  if (from.at.material.litThrough) ray.leaves = from.hit.object;  // not in its own way
+  const Ray ray = from.place.leave(arriving->toLight);
   const Color passed = tracer.visible(from.hit, ray, arriving->distance, from.inside);
   const Real shadow = from.at.material.shadow;
   return all * (passed * shadow + Color(1 - shadow));

@@ -11,8 +11,7 @@ void addLight(Gather& sum, const Path& path, const Interaction& at) {
   const PathPlace place(at);
   const auto arriving = tracer.world().illuminate(path.light, place.point(), path.onLight);
   if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) return;
-  Ray ray = place.leave(arriving->toLight);
-  if (at.material.litThrough) ray.leaves = at.hit.object;
+  const Ray ray = place.leave(arriving->toLight);
   const Color all = place.scattered(*arriving),
               passed = tracer.visible(at.hit, ray, arriving->distance, at.inside);
   const Scatter parts = scatter(at.bsdf(), at.frame, arriving->toLight, place.from());

@@ -30,7 +30,7 @@ void Bidirectional::askLights(Gather& sum, const PathPlace& at, const Path& path
     auto arriving = world.illuminate(i, from, place);
     if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) return;  // from beyond all numbers
     const Vec3& toLight = arriving->toLight;
-    Ray ray = at.leave(toLight);
+    const Ray ray = at.leave(toLight);
     arriving->attenuation *= Fog(tracer.settings()).left(ray, arriving->distance);
     // No path from the light brings what it adds to highlights: that is found here alone.
     Illumination more = *arriving;
@@ -45,7 +45,6 @@ void Bidirectional::askLights(Gather& sum, const PathPlace& at, const Path& path
                             at.density(toLight, at.from()));
     const Real counts = share(1, t, others, sample);
     if (!(counts > 0)) return;
-    if (surface && surface->material.litThrough) ray.leaves = surface->hit.object;  // not in its own way
     const Color passed = at.visible(tracer, ray, arriving->distance,
                                     sampler.branch(Branch::bdptToLamp).branch(asked.branch).branch(n));
     const Real shadow = surface ? surface->material.shadow : 1, alone = share(1, t, 0, sample);

@@ -116,8 +116,7 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
       const Color scattered = arriving->scattered(parts) * share;
       Color passed(1);
       if (!isBlack(scattered) && world.lightCastsShadows(i)) {
-        Ray toward = leaveToLight(arriving->toLight);
-        if (material.litThrough) toward.leaves = hit.object;  // it is not in its own way
+        const Ray toward = leaveToLight(arriving->toLight);
         passed = tracer.visible(hit, toward, arriving->distance, inside);
         if (!world.media().empty())
           passed = throughBodies(

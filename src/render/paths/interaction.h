@@ -45,8 +45,11 @@ class Interaction {
   /// smooth surface that a mesh stands for. Light that arrives is asked for there.
   const std::optional<Vec3>& raised() const { return raised_; }
   const Vec3& lightPlace() const { return raised_ ? *raised_ : hit.surface.point; }
+  /// An object that light crosses is not in the way of the light that leaves it.
   Ray leaveToLight(const Vec3& direction) const {
-    return raised_ ? Ray{*raised_, direction} : hit.leave(direction);
+    Ray next = raised_ ? Ray{*raised_, direction} : hit.leave(direction);
+    if (material.litThrough && !hit.strands) next.leaves = hit.object;
+    return next;
   }
   /// A direction on the side that light is seen on, which the normals between vertices have turned into the
   /// surface.

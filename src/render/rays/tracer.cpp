@@ -21,6 +21,7 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found)
       leaving(dot(ray.direction, surface.normal) > 0),
       twoSided(world.twoSided(object, materials)),
       convex(world.convex(object)),
+      strands(world.strands(object)),
       solid(world.solid(object)) {
   world.pierce(*this);
   world.bump(ray, *this);

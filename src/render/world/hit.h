@@ -41,6 +41,7 @@ struct Hit {
   bool leaving;           ///< the ray comes from inside: it runs along the true normal
   bool twoSided;          ///< the surface is shaded from both sides
   bool convex;            ///< the object is
+  bool strands;           ///< the object consists of strands
   bool solid;             ///< it encloses space
 };
 

@@ -171,6 +171,8 @@ class World {
   }
   /// A ray that leaves the object on the side of its normal does not hit it again.
   bool convex(std::uint32_t object) const { return instanceOf(object).convex; }
+  /// Its parts shade one another, and are not entered and left (geometry/shape_list.h).
+  bool strands(std::uint32_t object) const { return instanceOf(object).strands; }
   /// It encloses space; a mesh does if it is closed.
   bool solid(std::uint32_t object) const { return instanceOf(object).solid; }
   /// Nested and overlapping glass objects are distinguished.
@@ -289,6 +291,7 @@ class World {
     bool opaque = true;
     bool blocks = true;  ///< opaque, and all of it casts a shadow
     bool convex = false;
+    bool strands = false;
     bool solid = false;
     bool mixed = false;  ///< parts of it are made of other materials
     bool mapped = true;  ///< pictures lie on it by u and v; else they show one corner

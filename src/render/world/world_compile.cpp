@@ -327,6 +327,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
     } else {
       box = shape.bounds();
       instance.convex = shape.convex();
+      instance.strands = shape.strands();
       instance.mixed = shape.ofSeveralMaterials();
       shape.addMaterials(used);
       if (std::any_of(used.begin(), used.end(), [&](std::uint32_t m) {

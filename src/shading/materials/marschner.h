@@ -32,12 +32,17 @@ struct Marschner : SurfaceFields {
   using Bsdf = MarschnerBsdf;
 
   Color color{0.35, 0.18, 0.08};
+  Real eumelanin = 0, pheomelanin = 0;
   Real roughness = 0.3, roughnessAround = 0.3, index = 1.55, tilt = 2, angle = 90;
 
   static constexpr auto fields() {
     return Fields{
         Field{"color", &Marschner::color, "", 0, 1,
               "colour of a head of hair; the absorption of a strand follows from it"},
+        Field{"eumelanin", &Marschner::eumelanin, "", 0, kNoLimit,
+              "concentration of brown pigment, in place of `color`: blond has 0.3, brown 1.3, black 8"},
+        Field{"pheomelanin", &Marschner::pheomelanin, "", 0, kNoLimit,
+              "concentration of red pigment, in place of `color`: red hair has about 1"},
         Field{"roughness", &Marschner::roughness, "", 0, 1, "roughness along the strand"},
         Field{"roughness_around", &Marschner::roughnessAround, "", 0, 1, "roughness around the strand"},
         Field{"index", &Marschner::index, "", 1, kNoLimit, "index of refraction"},
@@ -49,7 +54,11 @@ struct Marschner : SurfaceFields {
   }
   bool operator==(const Marschner&) const = default;
 
-  Phong asPhong() const { return phongLike(*this, color, Color(0.3), 40); }
+  Phong asPhong() const { return phongLike(*this, headColor(), Color(0.3), 40); }
+  /// The absorption along one radius of a strand: of its pigments, if it has any, else by `color`.
+  Color absorption() const;
+  /// The colour of a head of such hair: `color`, unless there are pigments.
+  Color headColor() const;
   MarschnerBsdf at(const Rules& rules) const;
 };
 

@@ -5,6 +5,8 @@
 namespace trace {
 namespace {
 
+constexpr Real kLeastRoughness = 0.02;  // narrower lobes would overflow
+
 /// x to a whole power.
 Real power(Real x, int n) { return n == 0 ? 1 : x * power(x, n - 1); }
 
@@ -45,21 +47,47 @@ Real wrapped(Real angle) { return std::remainder(angle, 2 * kPi); }
 
 }  // namespace
 
-MarschnerBsdf::MarschnerBsdf(const Marschner& model) : LocalBsdf(model) {
-  litThrough = true;
-  constexpr Real kLeast = 0.02;  // narrower lobes would overflow
-  const Real m = max(kLeast, model.roughness), n = max(kLeast, model.roughnessAround);
-  // Chiang and others 2016, equations 7, 8 and 9.
-  const Real width = 0.726 * m + 0.812 * m * m + 3.7 * power(m, 20);
-  variance = {width * width, width * width / 4, 4 * width * width, 4 * width * width};
-  scale = std::sqrt(kPi / 8) * (0.265 * n + 1.194 * n * n + 5.372 * power(n, 22));
-  const Real by =
-      5.969 - 0.215 * n + 2.532 * n * n - 10.73 * power(n, 3) + 5.574 * power(n, 4) + 0.245 * power(n, 5);
+namespace {
+
+/// Chiang and others 2016, equation 9: the root of the absorption is the logarithm of a head's colour,
+/// divided by this.
+Real logarithmOfColor(const Marschner& model) {
+  const Real n = max(kLeastRoughness, model.roughnessAround);
+  return 5.969 - 0.215 * n + 2.532 * n * n - 10.73 * power(n, 3) + 5.574 * power(n, 4) + 0.245 * power(n, 5);
+}
+
+bool hasPigments(const Marschner& model) { return model.eumelanin > 0 || model.pheomelanin > 0; }
+
+}  // namespace
+
+Color Marschner::absorption() const {
+  // d'Eon and others 2011, table 1: the absorption of each pigment.
+  const Color brown{0.419, 0.697, 1.37}, red{0.187, 0.4, 1.05};
+  if (hasPigments(*this)) return brown * max(0, eumelanin) + red * max(0, pheomelanin);
+  const Real by = logarithmOfColor(*this);
   const auto channel = [&](Real c) {
     const Real root = std::log(max(1e-6, min(1, c))) / by;
     return root * root;
   };
-  absorption = {channel(model.color.r), channel(model.color.g), channel(model.color.b)};
+  return {channel(color.r), channel(color.g), channel(color.b)};
+}
+
+Color Marschner::headColor() const {
+  if (!hasPigments(*this)) return color;
+  const Color absorbed = absorption();
+  const Real by = logarithmOfColor(*this);
+  const auto channel = [&](Real a) { return std::exp(-std::sqrt(a) * std::abs(by)); };
+  return {channel(absorbed.r), channel(absorbed.g), channel(absorbed.b)};
+}
+
+MarschnerBsdf::MarschnerBsdf(const Marschner& model) : LocalBsdf(model) {
+  litThrough = true;
+  const Real m = max(kLeastRoughness, model.roughness), n = max(kLeastRoughness, model.roughnessAround);
+  // Chiang and others 2016, equations 7 and 8.
+  const Real width = 0.726 * m + 0.812 * m * m + 3.7 * power(m, 20);
+  variance = {width * width, width * width / 4, 4 * width * width, 4 * width * width};
+  scale = std::sqrt(kPi / 8) * (0.265 * n + 1.194 * n * n + 5.372 * power(n, 22));
+  absorption = model.absorption();
 }
 
 struct MarschnerBsdf::Seen {

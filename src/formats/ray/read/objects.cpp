@@ -1,6 +1,8 @@
 #include "formats/ray/read/objects.h"
 
+#include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/text.h"
@@ -16,6 +18,7 @@
 #include "geometry/shapes/solids/blend.h"
 #include "geometry/shapes/solids/cone.h"
 #include "geometry/shapes/solids/plane.h"
+#include "geometry/shapes/surfaces/fur.h"
 #include "scene/groups.h"
 #include "scene/particles.h"
 #include "scene/rows.h"
@@ -247,7 +250,7 @@ void ObjectReader::analyticShape(Shape shape, const Item& call, const Item& bloc
                              keywords(shape, {"material", "name", "lit_by", "not_lit_by"}));
     }
   }
-  if (ofObjects) shape.setOperands(operands(call, block, material, shape.is<Clip>()));
+  if (ofObjects) shape.setOperands(operands(call, block, material, mayBeOpen(shape)));
   if (findings_.errors() != errors) return;  // what is wrong is said
   const Tell tell = [&](std::string what, std::string hint) {
     findings_.warn(call, std::move(what), std::move(hint));
@@ -296,22 +299,28 @@ bool ObjectReader::isObject(const Item& item) {
   return item.is(Kind::call) && findShapeType(canonical(item.key()));
 }
 
+std::size_t ObjectReader::mayBeOpen(const Shape& whole) {
+  if (whole.is<Fur>()) return std::numeric_limits<std::size_t>::max();
+  return whole.is<Clip>() ? 1 : 0;
+}
+
 Operands ObjectReader::operands(const Item& call, const Item& block, const NotedMaterial& material,
-                                bool clips) {
+                                std::size_t mayBeOpen) {
   const NestedSolid nested(*this, call, true);
   if (!nested) return {};
   const NotedMaterial outside = std::exchange(materials_.current, material);
   std::vector<Operand> operands;
   const auto readAll = [&](const Item& items) {
     for (const Item item : items)
-      if (isObject(item)) operand(call, item, clips && operands.empty(), operands);
+      if (isObject(item)) operand(call, item, operands.size() < mayBeOpen, operands);
   };
   readAll(block);
   for (const Item item : block)
     if (isListOfObjects(item)) readAll(item.value());
   materials_.current = outside;
   if (operands.empty()) findings_.warn(call, std::string(call.key()) + " without objects is empty");
-  if (operands.size() == 1 && call.key() != Union::kKeyword && call.key() != Blend::kKeyword)
+  const std::set<std::string_view> mayBeAlone{Union::kKeyword, Blend::kKeyword, Fur::kKeyword};
+  if (operands.size() == 1 && !mayBeAlone.contains(call.key()))
     findings_.warn(call, std::string(call.key()) + " of one object changes nothing");
   return Operands(std::move(operands));
 }

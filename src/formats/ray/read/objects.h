@@ -94,7 +94,10 @@ class ObjectReader {
   bool isObject(const Item& item);
   /// The objects of a block, which may stand in objects = { } as well. They have the material of the whole if
   /// they do not say another.
-  Operands operands(const Item& call, const Item& block, const NotedMaterial& material, bool clips);
+  /// How many of its first objects may be open sheets.
+  static std::size_t mayBeOpen(const Shape& whole);
+  Operands operands(const Item& call, const Item& block, const NotedMaterial& material,
+                    std::size_t mayBeOpen);
   /// A group is one operand: the union of its objects.
   void operand(const Item& whole, const Item& item, bool mayBeOpen, std::vector<Operand>& operands);
   void add(const Item& call, Object object);

@@ -13,6 +13,7 @@
 #include "geometry/shapes/solids/disk.h"
 #include "geometry/shapes/solids/quadric.h"
 #include "geometry/shapes/solids/rounded_box.h"
+#include "geometry/shapes/surfaces/curves.h"
 #include "geometry/shapes/surfaces/height_field.h"
 #include "geometry/shapes/surfaces/isosurface.h"
 #include "geometry/shapes/surfaces/lathe.h"
@@ -83,6 +84,8 @@ void checkLengths(const Tell& tell, std::string_view list, const std::vector<std
 /// Values that the shape's geometry cannot mean although each is in its range.
 void checkMeaning(const Shape& shape, const Tell& tell) {
   if (const auto* sweep = shape.as<SphereSweep>()) checkLengths(tell, "points", sweep->points, 3, "radii");
+  if (const auto* curves = shape.as<Curves>())
+    for (const Curves::Strand& strand : curves->strands) checkLengths(tell, "strands", strand, 3, "widths");
   if (const auto* lathe = shape.as<Lathe>(); lathe && lathe->spline == Spline::linear)  // others have handles
     checkLengths(tell, "profile", lathe->profile, 0, "distances from the axis");
   if (const auto* metaballs = shape.as<Metaballs>()) {
@@ -165,6 +168,9 @@ void checkShape(const Shape& shape, const ShapeFacts& facts, const Tell& tell) {
   }
   if (const auto* sweep = shape.as<SphereSweep>())
     checkCurve(tell, "points", sweep->points.size(), sweep->spline, false);
+  if (const auto* curves = shape.as<Curves>())
+    for (const Curves::Strand& strand : curves->strands)
+      checkCurve(tell, "a strand", strand.size(), curves->spline, false);
   visitAs<Quadric, Isosurface>(shape, [&](const auto& cut) { checkBox(tell, cut.low, cut.high); });
   if (const auto* surface = shape.as<Isosurface>())
     checkFormula(tell, surface->formula, surface->low, surface->high);

@@ -44,6 +44,8 @@ class CsgTree {
   CsgTree(CsgRule rule, const std::vector<Operand>& operands, const MeshTrees& made = {});
 
   bool solid() const { return rule_.solid; }
+  /// A clip of strands.
+  bool strands() const { return !solid() && !operands_.empty() && operands_.front().shape().strands(); }
   Box3 bounds() const { return bounds_; }
   void crossings(const Ray& ray, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;

@@ -44,6 +44,18 @@ struct Arcs {
   std::vector<std::array<Real, N>> ends;
 };
 
+/// The coefficients of 1, u, u^2, u^3 of an arc of four neighbouring points; a line has the first two.
+inline std::array<Real, 4> arcOf(Spline spline, Real a, Real b, Real c, Real d) {
+  switch (spline) {
+    case Spline::linear: break;
+    case Spline::bezier: return {a, 3 * (b - a), 3 * (a - 2 * b + c), d - a + 3 * (b - c)};
+    case Spline::bspline:
+      return {(a + 4 * b + c) / 6, (c - a) / 2, (a - 2 * b + c) / 2, (d - a + 3 * (b - c)) / 6};
+    case Spline::catmull: return {b, (c - a) / 2, (2 * a - 5 * b + 4 * c - d) / 2, (d - a + 3 * (b - c)) / 2};
+  }
+  return {a, b - a, 0, 0};
+}
+
 template <int N>
 Arcs<N> arcsOf(Spline spline, const std::vector<std::array<Real, N>>& points) {
   Arcs<N> curve;
@@ -54,16 +66,7 @@ Arcs<N> arcsOf(Spline spline, const std::vector<std::array<Real, N>>& points) {
     for (std::size_t axis = 0; axis < N; ++axis) {
       const Real a = points[i][axis], b = points[i + 1][axis];
       const Real c = reach == 4 ? points[i + 2][axis] : 0, d = reach == 4 ? points[i + 3][axis] : 0;
-      switch (spline) {
-        case Spline::linear: arc.c[axis] = {a, b - a, 0, 0}; break;
-        case Spline::bezier: arc.c[axis] = {a, 3 * (b - a), 3 * (a - 2 * b + c), d - a + 3 * (b - c)}; break;
-        case Spline::bspline:
-          arc.c[axis] = {(a + 4 * b + c) / 6, (c - a) / 2, (a - 2 * b + c) / 2, (d - a + 3 * (b - c)) / 6};
-          break;
-        case Spline::catmull:
-          arc.c[axis] = {b, (c - a) / 2, (2 * a - 5 * b + 4 * c - d) / 2, (d - a + 3 * (b - c)) / 2};
-          break;
-      }
+      arc.c[axis] = arcOf(spline, a, b, c, d);
     }
     if (curve.ends.empty()) {
       curve.ends.emplace_back();

@@ -197,7 +197,8 @@ SurfacePoint TracedSweep::surface(const Ray& ray, const Crossing& crossing) cons
       };
       const Real h = std::ldexp(1.0, -kStepBits), value = f(u), slope = (f(u + h) - f(u - h)) / (2 * h);
       const Real next = u - value / slope;
-      if (!(std::abs(next - u) < 4 * h)) break;
+      constexpr Real kNear = 1e-2;  // places beside the one that was found are asked for, too
+      if (!(std::abs(next - u) < kNear)) break;
       u = std::clamp(next, 0.0, 1.0);
     }
   }
