@@ -8,6 +8,7 @@
 
 #include "app/view/room.h"
 #include "scene/picture_size.h"
+#include "studio/space/gizmo_view.h"
 #include "studio/space/rays_view.h"
 #include "studio/space/space_lines.h"
 #include "studio/studio.h"
@@ -233,7 +234,7 @@ void drawSwitches(Studio& studio) {
   RaysView& view = studio.rays;
   const char* const kSurfaces[] = {"Shaded", "Wireframe", "No surfaces"};
   int surfaces = static_cast<int>(view.surfaces);
-  ImGui::SetNextItemWidth(characters(18));
+  ImGui::SetNextItemWidth(characters(15));
   if (ImGui::Combo("##surfaces", &surfaces, kSurfaces, 3)) view.surfaces = static_cast<Surfaces>(surfaces);
   ImGui::SameLine();
   if (ImGui::Button("Show...")) ImGui::OpenPopup("show");
@@ -246,6 +247,15 @@ void drawSwitches(Studio& studio) {
   ImGui::Checkbox("from camera", &view.fromCamera);
   landmark("from camera");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("look as the scene's camera does; turning leaves it");
+  if (studio.selected == Studio::Selected::object) {
+    const char* const kModes[] = {"Move", "Turn", "Scale"};
+    int mode = static_cast<int>(view.gizmo.mode);
+    beside("Scale", ImGui::GetFrameHeight());
+    ImGui::SetNextItemWidth(characters(11));
+    if (ImGui::Combo("##gizmo", &mode, kModes, 3)) view.gizmo.mode = static_cast<GizmoMode>(mode);
+    landmark("gizmo");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("what the handles of the selected object do (M, T, S)");
+  }
   beside("Reset", 0);
   if (ImGui::Button("Reset")) {
     view.orbitFile.clear();
@@ -359,7 +369,9 @@ void drawSpace(Studio& studio) {
   const Real aspect = size.x / size.y;
   const CameraFrame camera =
       frame(cameraFor(document.scene(), document.settings()), document.settings().cameraAxes);
-  moveCamera(studio, fitted(camera, aspect), size);
+  const SpaceFrame before{low, size, view.fromCamera ? fitted(camera, aspect) : view.orbit.frame(aspect)};
+  const bool holds = dragGizmo(studio, before);
+  if (!holds) moveCamera(studio, fitted(camera, aspect), size);
   const CameraFrame world = view.fromCamera ? fitted(camera, aspect) : view.orbit.frame(aspect);
   CameraFrame local = world;
   local.eye = (world.eye - view.model.origin) / view.model.scale;
@@ -399,7 +411,8 @@ void drawSpace(Studio& studio) {
                                        {low.x + size.x, low.y + size.y}, {0, 1}, {1, 0});
   view.coarse = !held && view.drawer->coarse();
 
-  if (hovered && !ImGui::IsMouseDown(0)) {
+  const bool onHandle = drawGizmo(studio, {low, size, world});
+  if (hovered && !ImGui::IsMouseDown(0) && !onHandle) {
     const int under = rayUnderCursor(studio, matrix, low, size);
     if (under >= 0) {
       const TracedPixel& pixel = *shownPixel(studio);
