@@ -73,6 +73,12 @@ void exportPicture(Studio& studio) {
                      pictureSuffixes(FileDialog::Purpose::write),
                      [&studio](const std::string& file) { studio.workspace.savePicture(file); });
 }
+void exportRays(Studio& studio) {
+  const std::filesystem::path picture(studio.workspace.defaultPictureFile());
+  studio.dialog.open("Export the rays", FileDialog::Purpose::write,
+                     (picture.parent_path() / (picture.stem().string() + "-rays.svg")).string(),
+                     {".svg", ".png"}, [&studio](const std::string& file) { saveRays(studio, file); });
+}
 void saveSceneAs(Studio& studio) { saveSceneAsAnd(studio, nullptr); }
 void saveScene(Studio& studio) { saveSceneAnd(studio, nullptr); }
 void zoomText(Studio& studio, float factor) {
@@ -128,6 +134,9 @@ constexpr std::array kActions{
            saveSceneAs, hasScene, nullptr},
     Action{"File", "Export picture...", 'E', true, false, "write the picture to a file", exportPicture,
            hasPicture, nullptr},
+    Action{"File", "Export rays...", 0, false, false,
+           "write a drawing of the pixel's rays, from the camera and from the side, as .svg or .png",
+           exportRays, [](const Studio& s) { return shownPixel(s) != nullptr; }, nullptr},
     Action{"File", "Quit", 'Q', true, false, "close the studio",
            [](Studio& s) { s.leave([&s] { s.quit = true; }); }, always, nullptr},
     Action{"Edit", "Undo", 'Z', true, false, "take the last change back", undo,

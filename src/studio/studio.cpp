@@ -88,8 +88,8 @@ void restore(Studio& studio) {
   };
   studio.userScale = share("text-scale", 1, 0.5, 3);
   DockShares& shares = studio.layout.shares;
-  for (const auto& [key, value] :
-       {std::pair{"left", &shares.left}, {"right", &shares.right}, {"bottom", &shares.bottom}})
+  for (const auto& [key, value] : {std::pair{"left", &shares.left}, std::pair{"right", &shares.right},
+                                   std::pair{"bottom", &shares.bottom}})
     *value = share(key, *value, DockShares::kLeast, DockShares::kMost);
   studio.layout.drawer = p.get("drawer") == "open";
   studio.layout.arrangement = p.get("arrangement");

@@ -20,7 +20,7 @@ Gizmo atOrigin(GizmoMode mode, const Affine& placed = {}) {
   return gizmoFor(mode, placed, {}, fromTheFront());
 }
 
-void expectNear(const Vec3& a, const Vec3& b) {
+void expectPoint(const Vec3& a, const Vec3& b) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], 1e-9) << i;
 }
 
@@ -41,13 +41,13 @@ TEST(Gizmo, FindsTheHandleUnderTheCursor) {
 TEST(Gizmo, MovesAlongAnAxisAlone) {
   const auto by = draggedBy(atOrigin(GizmoMode::move), 0, fromTheFront(), {0.55, 0.5}, {0.65, 0.5});
   ASSERT_TRUE(by);
-  expectNear(*by * Vec3(0, 0, 0), {2, 0, 0});  // a tenth of the width
+  expectPoint(*by * Vec3(0, 0, 0), {2, 0, 0});  // a tenth of the width
 }
 
 TEST(Gizmo, MovesInThePlaneOfTheScreen) {
   const auto by = draggedBy(atOrigin(GizmoMode::move), Gizmo::kWhole, fromTheFront(), {0.5, 0.5}, {0.6, 0.6});
   ASSERT_TRUE(by);
-  expectNear(by->offset, {2, 1, 0});
+  expectPoint(by->offset, {2, 1, 0});
 }
 
 TEST(Gizmo, AnAxisThatPointsAtTheEyeIsNotDragged) {
@@ -57,21 +57,21 @@ TEST(Gizmo, AnAxisThatPointsAtTheEyeIsNotDragged) {
 TEST(Gizmo, TurnsAboutAnAxis) {
   const auto by = draggedBy(atOrigin(GizmoMode::turn), 2, fromTheFront(), {0.6, 0.5}, {0.5, 0.7});
   ASSERT_TRUE(by);
-  expectNear(*by * Vec3(1, 0, 0), {0, 1, 0});  // a quarter of a turn, against the clock
+  expectPoint(*by * Vec3(1, 0, 0), {0, 1, 0});  // a quarter of a turn, against the clock
 }
 
 TEST(Gizmo, ScalesAlongTheObjectsOwnAxis) {
   const Affine placed = Affine::rotation({0, 0, 1}, kPi / 2);  // its x points up
   const auto by = draggedBy(atOrigin(GizmoMode::scale, placed), 0, fromTheFront(), {0.5, 0.6}, {0.5, 0.7});
   ASSERT_TRUE(by);
-  expectNear(*by * Vec3(1, 1, 1), {1, 2, 1});
+  expectPoint(*by * Vec3(1, 1, 1), {1, 2, 1});
 }
 
 TEST(Gizmo, ScalesAllAxesAtOnceAndNeverToNothing) {
   const Gizmo gizmo = atOrigin(GizmoMode::scale);
   const auto larger = draggedBy(gizmo, Gizmo::kWhole, fromTheFront(), {0.5, 0.5}, {0.5, 0.66});
   ASSERT_TRUE(larger);
-  expectNear(*larger * Vec3(1, 1, 1), {2, 2, 2});
+  expectPoint(*larger * Vec3(1, 1, 1), {2, 2, 2});
   EXPECT_FALSE(draggedBy(gizmo, 0, fromTheFront(), {0.55, 0.5}, {0.45, 0.5}));  // beyond the center
 }
 
@@ -79,7 +79,7 @@ TEST(Gizmo, TurnsAboutTheCenterOfTheObject) {
   Gizmo gizmo = gizmoFor(GizmoMode::turn, {}, {1, 2, 0}, fromTheFront());
   const auto by = draggedBy(gizmo, 2, fromTheFront(), {0.6, 0.7}, {0.55, 0.9});
   ASSERT_TRUE(by);
-  expectNear(*by * gizmo.center, gizmo.center);
+  expectPoint(*by * gizmo.center, gizmo.center);
 }
 
 }  // namespace

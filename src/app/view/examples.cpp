@@ -28,6 +28,8 @@ constexpr std::array kExamples{
     Row{"mirrors.ray", "Mirrors", "in mirrors"},
     Row{"textures.ray", "Textures", "colours that are patterns"},
     Row{"chess.ray", "Chess", "a board with its pieces"},
+    Row{"cornell.ray", "A lit room", "path tracing: walls light each other"},
+    Row{"photons.ray", "Caustics", "photon mapping: glass and brass focus the light"},
 };
 constexpr std::array kLessons{
     Row{"lessons/black-glass.ray", "Black glass", "Why is the ball black?"},

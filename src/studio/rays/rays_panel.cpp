@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
+#include "app/view/ray_drawing.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
 #include "scene/integrators.h"
 #include "studio/panels.h"
 #include "studio/rays/ray_rows.h"
@@ -136,6 +140,18 @@ void playRays(Studio& studio) {
   }
   view.step = 0;
   view.playsAt = ImGui::GetTime();
+}
+
+void saveRays(Studio& studio, const std::string& file) {
+  const TracedPixel& pixel = *shownPixel(studio);
+  studio.workspace.saveBy(file, [file, session = pixel.session, tree = pixel.tree()] {
+    const Drawing drawing =
+        drawRays(session->sceneOf(tree), session->settings(), session->worldOf(tree), tree);
+    if (std::filesystem::path(file).extension() == ".png")
+      writePicture(file, toPicture(drawing), Rounding::nearest);
+    else
+      writeFile(file, toSvg(drawing));
+  });
 }
 
 void stepRays(Studio& studio, int rays) {

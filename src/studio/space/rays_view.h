@@ -9,6 +9,7 @@
 
 #include "app/explain/chain_walk.h"
 #include "app/explain/pixel_inspector.h"
+#include "app/view/drag_pace.h"
 #include "app/view/gizmo.h"
 #include "app/view/orbit_camera.h"
 #include "app/view/scene_model.h"
@@ -89,6 +90,7 @@ struct RaysView {
 
   // The view in space.
   GizmoHold gizmo;
+  DragPace pace;
   std::unique_ptr<SceneDrawer> drawer;
   bool coarse = false;                      ///< the last frame drew it, and the next makes it smoother
   std::uint64_t pictureVersion = 0;         ///< version of the picture on its plane
@@ -114,6 +116,7 @@ struct RaysView {
   bool roomOpened = true;  ///< those of them that hide its inside are left out
   Surfaces surfaces = Surfaces::shaded;
   float opacity = 1;  ///< opacity of surfaces
+  bool flat = false, materialsShown = true, litByScene = false;
   bool boundsShown = false, normalsShown = false, lightsShown = true, cameraShown = true, axesShown = false;
   bool raysFramed = true;  ///< a click brings the pixel's rays into sight
   bool frameDue = false;   ///< the rays that are shown next are
@@ -139,6 +142,8 @@ const TracedPixel* shownPixel(const Studio& studio);
 void stepRays(Studio& studio, int rays);
 /// Plays the rays in the order of tracing, one after the other from the first; or stops that.
 void playRays(Studio& studio);
+/// Writes a drawing of the pixel's rays to a file, .svg or .png. Precondition: there are some.
+void saveRays(Studio& studio, const std::string& file);
 /// Finds the hierarchy boxes that the selected ray visited.
 void showBoxes(Studio& studio);
 /// The tab that lists the moves of a chain.

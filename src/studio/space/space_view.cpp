@@ -98,7 +98,9 @@ void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
   if (view.surfaces == Surfaces::none) return;
   for (const ScenePart& part : view.model.parts) {
     const float own = static_cast<float>(part.opacity);
-    DrawSurface surface{part.first, part.count, part.color, std::min(view.opacity, own)};
+    constexpr Color kPlain(0.7);
+    DrawSurface surface{part.first, part.count, view.materialsShown ? part.color : kPlain,
+                        view.materialsShown ? std::min(view.opacity, own) : view.opacity};
     surface.wall = view.roomOpened && std::binary_search(view.walls.begin(), view.walls.end(), part.object);
     if (view.surfaces == Surfaces::wireframe) {
       surface.opacity = kWire;
@@ -107,6 +109,23 @@ void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
     } else {
       (surface.opacity < 1 ? drawing.clear : drawing.solid).push_back(surface);
     }
+  }
+}
+
+/// The scene's lights that have a place or a direction, the brightest as bright as white.
+void addLights(const RaysView& view, const Scene& scene, SpaceDrawing& drawing) {
+  drawing.flat = view.flat;
+  if (!view.litByScene) return;
+  Real brightest = 1e-30;
+  for (const LightSource& source : scene.lights)
+    if (const Color* color = source.light.color()) brightest = std::max(brightest, maxComponent(*color));
+  for (const LightSource& source : scene.lights) {
+    const Vec3 *position = source.light.position(), *direction = source.light.direction();
+    const Color* color = source.light.color();
+    if (drawing.lights.size() == SpaceDrawing::kMostLights) break;
+    if (!color || (!position && !direction)) continue;
+    drawing.lights.push_back({position ? (*position - view.model.origin) / view.model.scale : -*direction,
+                              !position, *color * (0.85 / brightest)});
   }
 }
 
@@ -271,6 +290,9 @@ void drawSwitches(Studio& studio) {
   ImGui::Checkbox("axes: x red, y green, z blue", &view.axesShown);
   ImGui::Checkbox("bounding boxes", &view.boundsShown);
   ImGui::Checkbox("normals of surfaces", &view.normalsShown);
+  ImGui::Checkbox("colours of materials", &view.materialsShown);
+  ImGui::Checkbox("flat shading: one normal for each triangle", &view.flat);
+  ImGui::Checkbox("lit by the scene's lights, not from the eye", &view.litByScene);
   ImGui::Checkbox("into closed rooms, from outside", &view.roomOpened);
   ImGui::Checkbox("normals at hits", &view.hitNormalsShown);
   ImGui::Checkbox("pinned rays", &view.pinnedShown);
@@ -382,14 +404,17 @@ void drawSpace(Studio& studio) {
   const ImGuiIO& io = ImGui::GetIO();
   const auto pixels = [](float length, float scale) { return std::max(1, static_cast<int>(length * scale)); };
   const ImVec4 background = ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg);
-  SpaceDrawing drawing{.width = pixels(size.x, io.DisplayFramebufferScale.x),
-                       .height = pixels(size.y, io.DisplayFramebufferScale.y),
+  const bool held = ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
+  const float share = view.pace.halves(held, io.DeltaTime) ? 0.5f : 1;
+  SpaceDrawing drawing{.width = pixels(size.x, share * io.DisplayFramebufferScale.x),
+                       .height = pixels(size.y, share * io.DisplayFramebufferScale.y),
                        .background = {background.x, background.y, background.z, 1},
                        .matrix = matrix,
                        .eye = local.eye,
                        .inside = (camera.eye - view.model.origin) / view.model.scale,
                        .hidden = kHidden};
   addSurfaces(view, drawing);
+  addLights(view, document.scene(), drawing);
   const Frustum frustum = frustumOf(camera, 0.5 * view.size / length(camera.look));
   const Texture& picture = studio.picture.pictureTexture;
   if (view.cameraShown && view.pictureShown && !view.fromCamera && !picture.empty()) {
@@ -405,7 +430,10 @@ void drawSpace(Studio& studio) {
     for (std::size_t i = 0; i < 4; ++i) drawing.picture->corners[i] = view.model.local(frustum.corners[i]);
   }
   drawing.lines = spaceLines(studio, frustum, world.eye);
-  const bool held = ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
+  for (DrawLine& line : drawing.lines) {
+    line.width *= share;
+    line.dash *= share;
+  }
   const bool rests = !held && studio.window.rested() > RaysView::kRest;
   ImGui::GetWindowDrawList()->AddImage(view.drawer->show(std::move(drawing), rests), low,
                                        {low.x + size.x, low.y + size.y}, {0, 1}, {1, 0});
