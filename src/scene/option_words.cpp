@@ -92,6 +92,19 @@ constexpr std::array kWordRows{
     Row{"max-memory", "ram"},
 };
 
+/// Least values that are no quantity.
+constexpr std::array kLeastWordRows{
+    Row{"height", "auto"},           Row{"noise-target", "off"},    Row{"subdivide", "off"},
+    Row{"filter-radius", "auto"},    Row{"light-choices", "auto"},  Row{"threshold", "off"},
+    Row{"firefly-limit", "off"},     Row{"light-vertices", "all"},  Row{"camera-vertices", "all"},
+    Row{"ambient-occlusion", "off"}, Row{"occlusion-reach", "any"}, Row{"irradiance-cache", "off"},
+    Row{"caustics", "off"},          Row{"caustic-radius", "auto"}, Row{"caustic-texels", "off"},
+    Row{"outlines", "off"},          Row{"view-height", "auto"},    Row{"eye-separation", "auto"},
+    Row{"zero-parallax", "auto"},    Row{"focus", "auto"},          Row{"white-balance", "off"},
+    Row{"pass-far", "auto"},         Row{"threads", "all"},         Row{"time-limit", "none"},
+    Row{"checkpoint-every", "off"},  Row{"max-memory", "auto"},     Row{"bloom", "off"},
+};
+
 /// In small letters, with spaces for hyphens.
 std::string plain(std::string_view text) {
   std::string all(text);
@@ -113,6 +126,12 @@ std::vector<std::string_view> split(std::string_view text) {
 
 std::string_view wordsFor(const Option& option) {
   for (const Row& row : kWordRows)
+    if (row.option == option.name) return row.words;
+  return "";
+}
+
+std::string_view leastWordFor(const Option& option) {
+  for (const Row& row : kLeastWordRows)
     if (row.option == option.name) return row.words;
   return "";
 }

@@ -11,6 +11,9 @@ namespace trace {
 /// Other words for the option, with spaces between; "" if it has none.
 std::string_view wordsFor(const Option& option);
 
+/// The word for the least value of a number that is no quantity: "auto", "all"; "" if it is one.
+std::string_view leastWordFor(const Option& option);
+
 /// Every word of `text` is part of the option's name, group, help, choices or other words; letters may be
 /// small or capital.
 bool isAbout(const Option& option, std::string_view text);

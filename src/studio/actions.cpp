@@ -20,13 +20,28 @@ namespace trace::studio {
 namespace {
 
 constexpr int kEscape = KeyPress::kEscape, kEnter = KeyPress::kEnter, kDelete = KeyPress::kDelete,
-              kF1 = KeyPress::kF1, kF5 = KeyPress::kF5, kF10 = KeyPress::kF10, kF11 = KeyPress::kF11;
+              kF1 = KeyPress::kF1, kF2 = kF1 + 1, kF3 = kF1 + 2, kF4 = kF1 + 3, kF5 = KeyPress::kF5,
+              kF10 = KeyPress::kF10, kF11 = KeyPress::kF11;
 
 bool always(const Studio&) { return true; }
 bool hasScene(const Studio& studio) { return studio.workspace.document.isOpen(); }
 bool hasPicture(const Studio& studio) { return studio.workspace.render.session() != nullptr; }
 bool hasReference(const Studio& studio) { return studio.workspace.reference().has_value(); }
 bool renders(const Studio& studio) { return const_cast<Studio&>(studio).workspace.render.state().working(); }
+
+template <GizmoMode Mode>
+void handlesDo(Studio& studio) {
+  studio.rays.gizmo.mode = Mode;
+}
+template <GizmoMode Mode>
+bool isHandle(const Studio& studio) {
+  return studio.rays.gizmo.mode == Mode;
+}
+
+template <std::size_t Index>
+bool isArranged(const Studio& studio) {
+  return studio.layout.arrangement == arrangements()[Index].name;
+}
 
 std::vector<std::string> sceneSuffixes() {
   std::vector<std::string> suffixes;
@@ -57,6 +72,12 @@ void exportPicture(Studio& studio) {
   studio.dialog.open("Export the picture", FileDialog::Purpose::write, studio.workspace.defaultPictureFile(),
                      pictureSuffixes(FileDialog::Purpose::write),
                      [&studio](const std::string& file) { studio.workspace.savePicture(file); });
+}
+void exportRays(Studio& studio) {
+  const std::filesystem::path picture(studio.workspace.defaultPictureFile());
+  studio.dialog.open("Export the rays", FileDialog::Purpose::write,
+                     (picture.parent_path() / (picture.stem().string() + "-rays.svg")).string(),
+                     {".svg", ".png"}, [&studio](const std::string& file) { saveRays(studio, file); });
 }
 void saveSceneAs(Studio& studio) { saveSceneAsAnd(studio, nullptr); }
 void saveScene(Studio& studio) { saveSceneAnd(studio, nullptr); }
@@ -113,6 +134,9 @@ constexpr std::array kActions{
            saveSceneAs, hasScene, nullptr},
     Action{"File", "Export picture...", 'E', true, false, "write the picture to a file", exportPicture,
            hasPicture, nullptr},
+    Action{"File", "Export rays...", 0, false, false,
+           "write a drawing of the pixel's rays, from the camera and from the side, as .svg or .png",
+           exportRays, [](const Studio& s) { return shownPixel(s) != nullptr; }, nullptr},
     Action{"File", "Quit", 'Q', true, false, "close the studio",
            [](Studio& s) { s.leave([&s] { s.quit = true; }); }, always, nullptr},
     Action{"Edit", "Undo", 'Z', true, false, "take the last change back", undo,
@@ -123,6 +147,12 @@ constexpr std::array kActions{
            canDuplicate, nullptr},
     Action{"Edit", "Delete", kDelete, false, false, "take the selected object or light out", deleteSelected,
            canDelete, nullptr},
+    Action{"Edit", "Move with handles", 'M', false, false, "the selected object, in the view in space",
+           handlesDo<GizmoMode::move>, canDuplicate, isHandle<GizmoMode::move>},
+    Action{"Edit", "Turn with handles", 'T', false, false, "the selected object, in the view in space",
+           handlesDo<GizmoMode::turn>, canDuplicate, isHandle<GizmoMode::turn>},
+    Action{"Edit", "Scale with handles", 'S', false, false, "the selected object, in the view in space",
+           handlesDo<GizmoMode::scale>, canDuplicate, isHandle<GizmoMode::scale>},
     Action{"Render", "Render", kF5, false, false, "render the scene as it is now",
            [](Studio& s) { s.workspace.startRender(); }, hasScene, nullptr},
     Action{"Render", "Stop", kEscape, false, false, "stop; finished parts stay",
@@ -145,6 +175,10 @@ constexpr std::array kActions{
            [](Studio& s) { s.picture.exposure += 0.5f; }, always, nullptr},
     Action{"View", "Darker", '-', false, false, "exposure half a stop down",
            [](Studio& s) { s.picture.exposure -= 0.5f; }, always, nullptr},
+    Action{"View", "Play the rays", 'P', false, false,
+           "the pixel's rays one after the other, in the order of tracing", playRays,
+           [](const Studio& s) { return shownPixel(s) != nullptr; },
+           [](const Studio& s) { return s.rays.playsAt >= 0; }},
     Action{"View", "Stage", kF11, false, false, "picture and view in space alone, large; space: the next ray",
            toggleStage, hasScene, [](const Studio& s) { return s.stage; }},
     Action{"View", "Light theme", 'L', true, false, "dark letters on light, or light on dark",
@@ -157,8 +191,12 @@ constexpr std::array kActions{
            [](Studio& s) { zoomText(s, 1.125f); }, always, nullptr},
     Action{"View", "Smaller text", '-', true, false, "shrink everything",
            [](Studio& s) { zoomText(s, 1 / 1.125f); }, always, nullptr},
-    Action{"View", "First layout", 0, false, false, "put the panels where they were at first",
-           [](Studio& s) { s.layout = {}; }, always, nullptr},
+    Action{"View", "Look", kF2, false, false, "the picture, and the rays of a pixel",
+           [](Studio& s) { arrange(s, arrangements()[0]); }, always, isArranged<0>},
+    Action{"View", "Build", kF3, false, false, "options and scene, the picture, and the view in space",
+           [](Studio& s) { arrange(s, arrangements()[1]); }, always, isArranged<1>},
+    Action{"View", "Compare", kF4, false, false, "the picture alone, next to another one",
+           [](Studio& s) { arrange(s, arrangements()[2]); }, always, isArranged<2>},
     Action{"Help", "Keys and mouse", kF1, false, false, "this list", [](Studio& s) { s.showHelp = true; },
            always, nullptr},
     Action{"Help", "About", 0, false, false, "version and licence", [](Studio& s) { s.showAbout = true; },
@@ -252,6 +290,9 @@ std::string keyText(const Action& action) {
     case kEnter: return text + "Enter";
     case kEscape: return text + "Esc";
     case kF1: return text + "F1";
+    case kF2: return text + "F2";
+    case kF3: return text + "F3";
+    case kF4: return text + "F4";
     case kF5: return text + "F5";
     case kF11: return text + "F11";
     case kDelete: return text + "Delete";
@@ -259,6 +300,34 @@ std::string keyText(const Action& action) {
     default: return text + static_cast<char>(action.key);
   }
 }
+
+namespace {
+
+/// At the right of the bar: the arrangements, and the file.
+void drawMenuEnd(Studio& studio) {
+  const std::string& file = studio.workspace.document.file();
+  const std::string name = std::filesystem::path(file).filename().generic_string(),
+                    text = name + (studio.workspace.document.edited() ? " (edited)" : "");
+  const float gap = characters(2);
+  float width = ImGui::CalcTextSize(text.c_str()).x + gap;
+  for (const Arrangement& each : arrangements()) width += ImGui::CalcTextSize(each.name.data()).x + gap;
+  ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - gap));
+  for (const Arrangement& each : arrangements()) {
+    const bool now = studio.layout.arrangement == each.name;
+    ImGui::PushStyleColor(ImGuiCol_Text, now ? studio.palette().accent : studio.palette().muted);
+    const bool pressed = ImGui::Selectable(each.name.data(), false, 0, ImGui::CalcTextSize(each.name.data()));
+    ImGui::PopStyleColor();
+    landmark("arrangement " + std::string(each.name));
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s (F%d)", each.help.data(), static_cast<int>(&each - arrangements().data()) + 2);
+    if (pressed) arrange(studio, each);
+    ImGui::SameLine(0, gap);
+  }
+  ImGui::TextDisabled("%s", text.c_str());
+  if (!file.empty() && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", file.c_str());
+}
+
+}  // namespace
 
 void drawMenu(Studio& studio) {
   takeKeys(studio);
@@ -292,15 +361,7 @@ void drawMenu(Studio& studio) {
     goToNextMenu(studio, menu);
     ImGui::EndMenu();
   }
-  const std::string& file = studio.workspace.document.file();
-  if (!file.empty()) {
-    const std::string name = std::filesystem::path(file).filename().generic_string();
-    const std::string text = name + (studio.workspace.document.edited() ? " (edited)" : "");
-    const float width = ImGui::CalcTextSize(text.c_str()).x;
-    ImGui::SameLine(ImGui::GetWindowWidth() - width - characters(2));
-    ImGui::TextDisabled("%s", text.c_str());
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", file.c_str());
-  }
+  drawMenuEnd(studio);
   ImGui::EndMainMenuBar();
 }
 

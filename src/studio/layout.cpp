@@ -9,13 +9,14 @@
 #include "studio/dialogs.h"
 #include "studio/panels.h"
 #include "studio/stage.h"
+#include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 #include "studio/widgets/number_field.h"
 
 namespace trace::studio {
 namespace {
 
-constexpr float kLeast = 0.12f, kMost = 0.6f;  // shares of the window that a dock may take
+constexpr double kLeast = DockShares::kLeast, kMost = DockShares::kMost;
 
 Dock dockOf(const Studio& studio, const Panel& panel) {
   const auto found = studio.layout.docks.find(panel.name);
@@ -42,6 +43,26 @@ void tabMenu(Studio& studio, const Panel& panel) {
   ImGui::EndPopup();
 }
 
+/// The height of the lower dock while it is closed: its tabs.
+float drawerHeight() { return ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().WindowPadding.y; }
+
+/// The last message, next to the tabs of the closed drawer, and the button that opens or closes it.
+void drawDrawerBar(Studio& studio) {
+  bool& open = studio.layout.drawer;
+  if (ImGui::TabItemButton(open ? "v" : "^", ImGuiTabItemFlags_Trailing)) open = !open;
+  landmark("drawer");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip(open ? "close it" : "open it");
+  const auto& log = studio.workspace.log();
+  if (open || log.empty()) return;
+  const ImVec2 at = ImGui::GetItemRectMax(), from = ImGui::GetItemRectMin();
+  const ImVec2 end{ImGui::GetWindowPos().x + ImGui::GetWindowWidth(), at.y};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect({at.x, from.y}, end);
+  list.AddText({at.x + characters(2), from.y + ImGui::GetStyle().FramePadding.y},
+               ImGui::GetColorU32(ImGuiCol_TextDisabled), log.back().text.c_str());
+  list.PopClipRect();
+}
+
 void drawDock(Studio& studio, Dock dock, const char* name, ImVec2 position, ImVec2 size) {
   if (!occupied(studio, dock) || size.x < 1 || size.y < 1) return;
   ImGui::SetNextWindowPos(position);
@@ -59,6 +80,7 @@ void drawDock(Studio& studio, Dock dock, const char* name, ImVec2 position, ImVe
       landmark("panel " + std::string(panel.name));
       if (ImGui::IsItemHovered())
         ImGui::SetTooltip("%s (Alt+%c); right click to move", panel.help.data(), panel.key);
+      if (dock == Dock::bottom && (asked || ImGui::IsItemClicked())) studio.layout.drawer = true;
       tabMenu(studio, panel);
       if (!open) continue;
       studio.layout.front[dock] = panel.name;
@@ -67,22 +89,64 @@ void drawDock(Studio& studio, Dock dock, const char* name, ImVec2 position, ImVe
         ImGui::SetNextWindowFocus();
         showKeyboardCursor();
       }
-      ImGui::BeginChild(panel.name.data(), {0, 0}, false, ImGuiWindowFlags_NoScrollWithMouse);
-      panel.draw(studio);
-      ImGui::EndChild();
+      if (dock != Dock::bottom || studio.layout.drawer) {
+        ImGui::BeginChild(panel.name.data(), {0, 0}, false, ImGuiWindowFlags_NoScrollWithMouse);
+        panel.draw(studio);
+        ImGui::EndChild();
+      }
       ImGui::EndTabItem();
     }
+    if (dock == Dock::bottom) drawDrawerBar(studio);
     ImGui::EndTabBar();
   }
   ImGui::End();
 }
 
+/// An error over the panels; its height.
+float drawBanner(Studio& studio, ImVec2 at, float width) {
+  Studio::Banner& banner = studio.banner;
+  if (banner.text.empty()) return 0;
+  const auto& document = studio.workspace.document;
+  if (document.isOpen() && document.sharedScene() != banner.scene) {
+    banner = {};
+    return 0;
+  }
+  const float high = ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().FramePadding.y;
+  ImGui::SetNextWindowPos(at);
+  ImGui::SetNextWindowSize({width, high});
+  const ImVec4 error = studio.palette().error;
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(error.x, error.y, error.z, 0.25f));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding,
+                      {ImGui::GetStyle().WindowPadding.x, ImGui::GetStyle().FramePadding.y});
+  ImGui::Begin("banner", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
+  bool close = ImGui::Button("x");
+  landmark("banner close");
+  ImGui::SameLine();
+  if (ImGui::Button("Log")) {
+    studio.show("Log");
+    close = true;
+  }
+  landmark("banner log");
+  ImGui::SameLine();
+  ImGui::AlignTextToFramePadding();
+  rowName(banner.text);
+  landmark("banner");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", banner.text.c_str());
+  ImGui::End();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+  if (close) banner = {};
+  return high;
+}
+
 /// The quantity that a bar changes.
 struct Shared {
-  float& share;         ///< share of the whole that its dock may have
-  float pixels, whole;  ///< that the dock has now, and the window
-  float most;           ///< the share that leaves room for the other docks, which stay as they are
-  float sign = 1;       ///< -1 where the dock lies beyond the bar
+  double& share;         ///< share of the whole that its dock may have
+  double pixels, whole;  ///< that the dock has now, and the window
+  double most;           ///< the share that leaves room for the other docks, which stay as they are
+  double sign = 1;       ///< -1 where the dock lies beyond the bar
 };
 
 /// A bar that makes a dock larger and smaller when dragged.
@@ -106,16 +170,57 @@ void splitter(const char* name, ImVec2 position, ImVec2 size, const Shared& dock
   ImGui::GetWindowDrawList()->AddRectFilled(position, {position.x + size.x, position.y + size.y}, colour);
   if (ImGui::IsItemActive()) {
     const ImVec2 moved = ImGui::GetIO().MouseDelta;
-    const float by = dock.sign * (tall ? moved.x : moved.y);
+    const double by = dock.sign * (tall ? moved.x : moved.y);
     if (by != 0)
-      dock.share =
-          std::clamp((dock.pixels + by) / dock.whole, kLeast, std::max(kLeast, std::min(kMost, dock.most)));
+      dock.share = std::clamp<double>((dock.pixels + by) / dock.whole, kLeast,
+                                      std::max<double>(kLeast, std::min<double>(kMost, dock.most)));
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
 }
 
+/// All docks in that part of the window, and the bars between them.
+void drawDocks(Studio& studio, ImVec2 at, ImVec2 all, const DocksInUse& used) {
+  Layout& layout = studio.layout;
+  const DockSizes sizes =
+      dockSizes(layout.shares, used, all.x, all.y, characters(1), layout.drawer ? 0 : drawerHeight());
+  const auto left = static_cast<float>(sizes.left), right = static_cast<float>(sizes.right),
+             low = static_cast<float>(sizes.bottom);
+  const float rest = all.x - left, high = all.y - low;
+  drawDock(studio, Dock::left, "left", at, {left, all.y});
+  drawDock(studio, Dock::centre, "centre", {at.x + left, at.y}, {rest - right, high});
+  drawDock(studio, Dock::right, "right", {at.x + all.x - right, at.y}, {right, high});
+  drawDock(studio, Dock::bottom, "bottom", {at.x + left, at.y + high}, {rest, low});
+  const float bar = std::max(3.0f, std::round(4 * studio.theme.scale)), half = bar / 2;
+  const double others = right < rest ? right / all.x + kLeast : kLeast;
+  if (left > 0)
+    splitter("left bar", {at.x + left - half, at.y}, {bar, all.y},
+             {layout.shares.left, left, all.x, 1 - others});
+  if (right > 0 && right < rest)
+    splitter("right bar", {at.x + all.x - right - half, at.y}, {bar, high},
+             {layout.shares.right, right, all.x, rest / all.x - kLeast, -1});
+  if (low > 0 && layout.drawer)
+    splitter("low bar", {at.x + left, at.y + high - half}, {rest, bar},
+             {layout.shares.bottom, low, all.y, kMost, -1});
+}
+
 }  // namespace
+
+void arrange(Studio& studio, const Arrangement& arrangement) {
+  Layout& layout = studio.layout;
+  layout.shares = arrangement.shares;
+  layout.arrangement = arrangement.name;
+  layout.docks.clear();
+  layout.drawer = false;
+  for (const Arrangement::Place& place : arrangement.places)
+    layout.docks[std::string(place.panel)] = place.dock;
+}
+
+bool isShown(const Studio& studio, std::string_view name) {
+  return std::any_of(panels().begin(), panels().end(), [&](const Panel& panel) {
+    return panel.name == name && dockOf(studio, panel) != Dock::hidden;
+  });
+}
 
 void drawStudio(Studio& studio) {
   forgetLandmarks();
@@ -138,33 +243,17 @@ void drawStudio(Studio& studio) {
         layout.docks[layout.ask] = panel.dock == Dock::hidden ? Dock::bottom : panel.dock;
 
   const ImGuiViewport& view = *ImGui::GetMainViewport();
-  const ImVec2 at = view.WorkPos, all = view.WorkSize;
-  const float bar = std::max(3.0f, std::round(4 * studio.theme.scale));
+  ImVec2 at = view.WorkPos, all = view.WorkSize;
+  if (layout.arrangement.empty()) arrange(studio, firstArrangement(all.x / characters(1)));
+  const float banner = drawBanner(studio, at, all.x);
+  at.y += banner;
+  all.y -= banner;
   const bool starts = !studio.workspace.document.isOpen() && occupied(studio, Dock::centre);
-  const float left = occupied(studio, Dock::left) && !starts  // wide enough for names beside values
-                         ? std::round(std::max(all.x * layout.left, std::min(characters(30), all.x * 0.32f)))
-                         : 0;
-  const float rest = all.x - left;
-  float right = occupied(studio, Dock::right) && !starts ? std::round(all.x * layout.right) : 0;
-  if (!occupied(studio, Dock::centre)) right = rest;
-  right = std::min(right, rest - (right < rest ? all.x * kLeast : 0));
-  const float low = occupied(studio, Dock::bottom) ? std::round(all.y * layout.bottom) : 0;
-  const float high = all.y - low;
-
-  drawDock(studio, Dock::left, "left", at, {left, all.y});
-  drawDock(studio, Dock::centre, "centre", {at.x + left, at.y}, {rest - right, high});
-  drawDock(studio, Dock::right, "right", {at.x + all.x - right, at.y}, {right, high});
-  drawDock(studio, Dock::bottom, "bottom", {at.x + left, at.y + high}, {rest, low});
-  const float half = bar / 2;
-  const float others = right < rest ? right / all.x + kLeast : kLeast;
-  if (left > 0)
-    splitter("left bar", {at.x + left - half, at.y}, {bar, all.y}, {layout.left, left, all.x, 1 - others});
-  if (right > 0 && right < rest)
-    splitter("right bar", {at.x + all.x - right - half, at.y}, {bar, high},
-             {layout.right, right, all.x, rest / all.x - kLeast, -1});
-  if (low > 0)
-    splitter("low bar", {at.x + left, at.y + high - half}, {rest, bar},
-             {layout.bottom, low, all.y, kMost, -1});
+  const DocksInUse used{.left = occupied(studio, Dock::left) && !starts,
+                        .centre = occupied(studio, Dock::centre),
+                        .right = occupied(studio, Dock::right) && !starts,
+                        .bottom = occupied(studio, Dock::bottom)};
+  drawDocks(studio, at, all, used);
   drawDialogs(studio);
   noteKeyboard(studio);
   std::vector<Message> remarks;

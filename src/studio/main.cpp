@@ -50,28 +50,46 @@ bool isBusy(Studio& studio) {
          studio.rays.pyramid.busy() || (!workspace.document.isOpen() && studio.start.task.pending());
 }
 
+/// The last error of the log, over the panels.
+void showError(Studio& studio) {
+  const auto& log = studio.workspace.log();
+  const auto error = std::find_if(log.rbegin(), log.rend(), [](const Workspace::LogEntry& entry) {
+    return entry.level == Workspace::LogEntry::Level::error;
+  });
+  if (error == log.rend()) return;
+  const Place& place = error->place;
+  const std::string file = std::filesystem::path(place.file).filename().generic_string();
+  studio.banner.text =
+      (file.empty() ? ""
+                    : file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": ") +
+      error->text;
+  const Document& document = studio.workspace.document;
+  studio.banner.scene = document.isOpen() ? document.sharedScene() : nullptr;
+}
+
 /// True if there is something new to see. Waits for it, but not longer than so many seconds.
 bool update(Studio& studio, double longest) {
   Workspace& workspace = studio.workspace;
   const auto smooths = [&] { return studio.rays.coarse && studio.window.rested() > RaysView::kRest; };
-  bool due = studio.window.wait(std::min(longest, smooths()                              ? kSoon
-                                                  : isBusy(studio) || studio.rays.coarse ? kBusy
-                                                                                         : kIdle));
+  bool due = studio.window.wait(
+      std::min(longest, smooths()                                                          ? kSoon
+                        : isBusy(studio) || studio.rays.coarse || studio.rays.playsAt >= 0 ? kBusy
+                                                                                           : kIdle));
   for (const std::string& file : studio.window.takeDropped()) openDropped(studio, file);
   for (const std::string& file : host::takeOpened()) openDropped(studio, file);
   const std::uint64_t failures = workspace.failures(), refusals = workspace.refusals();
   workspace.update();
   for (const std::string& file : workspace.takeWritten()) host::handOver(file);
   if (workspace.failures() > failures) {
-    studio.show("Log");
+    showError(studio);
     studio.quit = false;
   }
   if (workspace.refusals() > refusals) studio.show("Log");
   const Workspace::Pulse pulse = workspace.pulse();
   const bool modelling =
       studio.rays.modelTask.busy() || studio.rays.chains.busy() || studio.rays.pyramid.busy();
-  due = due || smooths() || studio.start.news(workspace.document.isOpen()) || studio.pulse != pulse ||
-        modelling != studio.modelling || studio.themeChanged ||
+  due = due || smooths() || studio.rays.playsAt >= 0 || studio.start.news(workspace.document.isOpen()) ||
+        studio.pulse != pulse || modelling != studio.modelling || studio.themeChanged ||
         ImGui::GetIO().WantTextInput;  // its cursor blinks
   studio.pulse = pulse;
   studio.modelling = modelling;

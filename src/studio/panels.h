@@ -23,6 +23,8 @@ void drawPicture(Studio&);
 /// The picture without its surroundings, in the rest of the child window.
 void drawPictureAlone(Studio&);
 void drawControls(Studio&);
+/// The options that people use most, in lines of the rest of the child window.
+void drawFrequentOptions(Studio&);
 void drawScene(Studio&);
 void drawRays(Studio&);
 void drawBadSamples(Studio&);

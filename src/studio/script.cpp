@@ -154,6 +154,72 @@ bool movePointer(Studio& studio, const Words& words, bool drags) {
   return !drags && frame >= frames;
 }
 
+/// A number from 0 to below `most`, which follows from the seed, the frame and `salt`.
+unsigned dice(int seed, int frame, unsigned salt, unsigned most) {
+  std::uint64_t h = static_cast<std::uint64_t>(seed) * 0x9e3779b97f4a7c15u +
+                    static_cast<std::uint64_t>(frame) * 0xbf58476d1ce4e5b9u + salt * 0x94d049bb133111ebu;
+  h ^= h >> 30, h *= 0xbf58476d1ce4e5b9u, h ^= h >> 27, h *= 0x94d049bb133111ebu, h ^= h >> 31;
+  return static_cast<unsigned>(h % most);
+}
+
+void typeKey(Studio& studio, int key, bool control = false) {
+  InputEvent event{.kind = InputEvent::Kind::key, .code = key, .writes = key, .down = true};
+  event.control = control;
+  if (!control && key < 128) event.character = static_cast<unsigned>(key);
+  studio.window.feed(event);
+  event.down = false;
+  event.character = 0;
+  studio.window.feed(event);
+}
+
+/// Random input, below the menu bar: it closes dialogs, so nothing is written. True when it is done.
+bool playMonkey(Studio& studio, const Words& words) {
+  constexpr int kHeld = 4;  // frames between a press and its release
+  constexpr int kKeys[] = {258,
+                           262,
+                           263,
+                           264,
+                           265,
+                           KeyPress::kEscape,
+                           KeyPress::kEnter,
+                           KeyPress::kDelete,
+                           ' ',
+                           'A',
+                           'C',
+                           'F',
+                           'M',
+                           'P',
+                           'S',
+                           'T',
+                           '.',
+                           '-',
+                           '0',
+                           '3',
+                           '7',
+                           291,
+                           292,
+                           293,
+                           KeyPress::kF11};
+  constexpr int kWithControl[] = {'Z', 'Y', 'D', 'L'};
+  const int frames = whole(words[0]), seed = whole(words[1]), frame = studio.scriptFrames;
+  const auto roll = [&](unsigned salt, unsigned most) { return dice(seed, frame, salt, most); };
+  if (studio.dialog.isOpen()) typeKey(studio, KeyPress::kEscape);
+  if (frame % kHeld == 0) {
+    press(studio, false);
+    const unsigned what = roll(0, 10);
+    if (what == 0) studio.window.feed({.kind = InputEvent::Kind::wheel, .y = roll(1, 2) ? 1.0 : -1.0});
+    if (what == 1) typeKey(studio, kWithControl[roll(1, 4)], true);
+    if (what == 2 || what == 3) typeKey(studio, kKeys[roll(1, static_cast<unsigned>(std::size(kKeys)))]);
+    if (what > 4 && frame < frames) press(studio, true);
+  }
+  int width = 0, height = 0;
+  studio.window.size(width, height);
+  constexpr double kMenu = 0.06;  // share of the height, in which the monkey does not click
+  const double x = roll(2, 1000) / 1000.0, y = kMenu + (1 - kMenu) * roll(3, 1000) / 1000.0;
+  studio.window.feed({.kind = InputEvent::Kind::pointer, .x = x * width, .y = y * height});
+  return frame >= frames && frame % kHeld == 0;
+}
+
 /// Time and frames since the last call.
 void printTimes(const Studio& studio, const std::string& what) {
   using Clock = std::chrono::steady_clock;
@@ -308,6 +374,11 @@ constexpr std::array kCommands{
             [](Studio& s, const Words& a) { s.workspace.savePicture(a[0]); }, checkPicture},
     Command{"save-scene", "FILE", 1, 1, "write the scene as a .ray file",
             [](Studio& s, const Words& a) { s.workspace.saveScene(a[0]); }},
+    Command{"save-rays", "FILE", 1, 1, "write a drawing of the pixel's rays, as .svg or .png",
+            [](Studio& s, const Words& a) {
+              if (!shownPixel(s)) throw Error(Fault::usage, "no rays are shown");
+              saveRays(s, a[0]);
+            }},
     Command{"screenshot", "FILE [PART...]", 1, 9, "write what the window shows, or a part that `state` names",
             [](Studio& s, const Words& a) {
               const Picture all = fromBytes(s.window.screenshot());
@@ -322,6 +393,8 @@ constexpr std::array kCommands{
             "move the mouse over a part that `state` names, in so many frames", nullptr,
             [](const Words& a) { whole(a[0]); }, 0,
             [](Studio& s, const Words& a) { return movePointer(s, a, false); }},
+    Command{"monkey", "FRAMES SEED", 2, 2, "click, drag and type at random, in so many frames", nullptr,
+            checkNumbers, 0, playMonkey},
     Command{"times", "[WORDS...]", 0, 9,
             "write the frames since the last `times`, their seconds, and those of all processors",
             [](Studio& s, const Words& a) { printTimes(s, joined(a)); }, nullptr, 0},

@@ -21,7 +21,8 @@ void drawCaption(Studio& studio) {
   const TracedPixel* pixel = shownPixel(studio);
   ImGui::PushTextWrapPos();
   if (!pixel) {
-    ImGui::TextDisabled("Click on the picture. Space: the next ray. F11 or Esc: back.");
+    ImGui::TextDisabled(
+        "Click on the picture. Space: the next ray. P: all, one after the other. F11 or Esc: back.");
   } else if (const int ray = view.step - 1; view.step > 0 && ray < static_cast<int>(view.rays)) {
     ImGui::TextColored(rayColour(studio, *pixel, ray), "%d of %d  %s: %s", view.step,
                        static_cast<int>(view.rays), rayName(*pixel, ray),
@@ -30,6 +31,7 @@ void drawCaption(Studio& studio) {
     ImGui::TextUnformatted(pixel->why.sentence.c_str());
   }
   ImGui::PopTextWrapPos();
+  if (pixel) drawSum(studio, *pixel);
   landmark("stage caption");
 }
 
@@ -59,7 +61,7 @@ void drawStage(Studio& studio) {
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse |
                    ImGuiWindowFlags_NoNav);
   updateRays(studio);
-  const float below = 2 * ImGui::GetTextLineHeightWithSpacing();
+  const float below = 3 * ImGui::GetTextLineHeightWithSpacing();
   const ImVec2 room = ImGui::GetContentRegionAvail(), gap = ImGui::GetStyle().ItemSpacing;
   const bool wide = room.x > room.y;
   const ImVec2 half = wide ? ImVec2{std::floor((room.x - gap.x) / 2), room.y - below}

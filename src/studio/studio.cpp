@@ -87,9 +87,12 @@ void restore(Studio& studio) {
     return static_cast<float>(std::clamp(p.number(key, otherwise), least, most));
   };
   studio.userScale = share("text-scale", 1, 0.5, 3);
-  studio.layout.left = share("left", studio.layout.left, 0.12, 0.6);
-  studio.layout.right = share("right", studio.layout.right, 0.12, 0.6);
-  studio.layout.bottom = share("bottom", studio.layout.bottom, 0.12, 0.6);
+  DockShares& shares = studio.layout.shares;
+  for (const auto& [key, value] : {std::pair{"left", &shares.left}, std::pair{"right", &shares.right},
+                                   std::pair{"bottom", &shares.bottom}})
+    *value = share(key, *value, DockShares::kLeast, DockShares::kMost);
+  studio.layout.drawer = p.get("drawer") == "open";
+  studio.layout.arrangement = p.get("arrangement");
   studio.layout.list = share("list", studio.layout.list, Layout::kLeastList, Layout::kMostList);
   studio.workspace.automatic = p.get("automatic", "on") == "on";
   studio.workspace.setRecent(p.all("recent"));
@@ -104,9 +107,11 @@ void remember(Studio& studio) {
   Preferences& p = studio.preferences;
   p.set("theme", studio.theme.light ? "light" : "dark");
   p.set("text-scale", studio.userScale);
-  p.set("left", studio.layout.left);
-  p.set("right", studio.layout.right);
-  p.set("bottom", studio.layout.bottom);
+  p.set("left", studio.layout.shares.left);
+  p.set("right", studio.layout.shares.right);
+  p.set("bottom", studio.layout.shares.bottom);
+  p.set("drawer", studio.layout.drawer ? "open" : "closed");
+  p.set("arrangement", studio.layout.arrangement);
   p.set("list", studio.layout.list);
   p.set("automatic", studio.workspace.automatic ? "on" : "off");
   p.setAll("recent", studio.workspace.recent());

@@ -10,6 +10,7 @@
 
 #include "app/editing/preferences.h"
 #include "app/editing/workspace.h"
+#include "app/view/arrangement.h"
 #include "studio/picture/picture_view.h"
 #include "studio/space/rays_view.h"
 #include "studio/start_page.h"
@@ -19,12 +20,12 @@
 
 namespace trace::studio {
 
-enum class Dock { left, centre, right, bottom, hidden };
-
 /// Where the panels are. Kept in the preferences.
 struct Layout {
-  float left = 0.23f, right = 0.4f, bottom = 0.17f;  ///< shares of the window
-  float list = 0.42f;                                ///< share of the panel Scene
+  DockShares shares;
+  bool drawer = false;        ///< the lower dock is open
+  std::string arrangement{};  ///< chosen last; "" before one is
+  float list = 0.42f;         ///< share of the panel Scene
   static constexpr float kLeastList = 0.1f, kMostList = 0.8f;
   std::map<std::string, Dock, std::less<>> docks;  ///< where they differ from the table
   std::map<Dock, std::string> front;               ///< the panel shown; one that was asked for
@@ -76,6 +77,11 @@ struct Studio {
     selectedIndex = index;
     revealSelected = true;
   }
+  /// An error that the log has, over the panels until it is dismissed or the scene is another.
+  struct Banner {
+    std::string text{};
+    std::shared_ptr<const Scene> scene{};
+  } banner;
   unsigned editedItem = 0;  ///< the widget whose changes make one step until it is let go
 
   const Palette& palette() const { return studio::palette(theme.light); }
@@ -116,6 +122,11 @@ void showKeyboardCursor();
 
 /// Enter uses what the keyboard is at, as Space does; Dear ImGui only begins to type with it.
 void enterPresses();
+
+/// Puts the panels where the arrangement has them.
+void arrange(Studio& studio, const Arrangement& arrangement);
+/// The panel is in a dock.
+bool isShown(const Studio& studio, std::string_view panel);
 
 /// One frame: menu, panels, dialogs.
 void drawStudio(Studio& studio);

@@ -12,7 +12,7 @@ TEST(StartPage, HasLessonsAndScenesThatCanBeRendered) {
   const std::string folder = sourceFolder() + "/scenes";
   const std::vector<ExampleScene> lessons = lessonsIn(folder), scenes = examplesIn(folder);
   EXPECT_EQ(lessons.size(), 4u);
-  EXPECT_EQ(scenes.size(), 8u);
+  EXPECT_EQ(scenes.size(), 10u);
   for (const auto& list : {lessons, scenes})
     for (const ExampleScene& scene : list) {
       const Bytes picture = thumbnail(scene.file, 32);

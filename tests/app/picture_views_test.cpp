@@ -42,6 +42,41 @@ TEST(PictureViews, ThePixelsLevelsAreThoseOfTheTone) {
   EXPECT_EQ(pixelText(picture.at(0, 0), stretched.at(0, 0), Rounding::nearest), "1  1  1   (0 0 0)");
 }
 
+TEST(PictureViews, AChannelAloneIsGrey) {
+  Picture picture(1, 1);
+  picture.at(0, 0) = {0.25, 0.5, 1};
+  EXPECT_EQ(channelOf(picture, Channel::all).at(0, 0), picture.at(0, 0));
+  EXPECT_EQ(channelOf(picture, Channel::green).at(0, 0), Color(0.5));
+  EXPECT_NEAR(channelOf(picture, Channel::luminance).at(0, 0).g, 0.299 * 0.25 + 0.587 * 0.5 + 0.114, 1e-12);
+}
+
+TEST(PictureViews, AHistogramCountsEveryPixelOnceInEachChannel) {
+  Picture picture(4, 1);
+  picture.at(0, 0) = {-1, 0.5, 2};
+  picture.at(1, 0) = {0, 0.5, std::nan("")};
+  picture.at(2, 0) = {1, 0.5, 0.25};
+  picture.at(3, 0) = {0.999, 0.1, 0.25};
+  const Histogram histogram = histogramOf(picture);
+  EXPECT_EQ(histogram.counts[0].front(), 2);
+  EXPECT_EQ(histogram.counts[0].back(), 2);
+  EXPECT_EQ(histogram.counts[1][Histogram::kBins / 2], 3);
+  for (const auto& channel : histogram.counts) {
+    int all = 0;
+    for (const int count : channel) all += count;
+    EXPECT_EQ(all, 4);
+  }
+  EXPECT_EQ(histogram.most, 3);
+}
+
+TEST(PictureViews, TheErrorOfAPictureIsSaidInNumbers) {
+  Picture picture(2, 1), other(2, 1);
+  picture.at(0, 0) = other.at(0, 0) = Color(0.5);
+  EXPECT_EQ(differenceText(picture, other), "the pictures are the same");
+  other.at(1, 0) = Color(0.5);
+  EXPECT_EQ(differenceText(picture, other),
+            "RMSE 0.354, mean 0.25, largest 0.5 at 1, 0; PSNR 9.0 dB; 50 % of pixels differ");
+}
+
 /// A film of two pixels and four samples: the left one sees 0.5, the right one 0 and 1 by turns.
 Film twoPixels(int waves) {
   Film film(2, 1, 4);

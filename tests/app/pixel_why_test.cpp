@@ -66,6 +66,18 @@ TEST(PixelWhy, AMirrorIsBlackForItsReflection) {
   EXPECT_EQ(why.cures.front().value, "1");
 }
 
+TEST(PixelWhy, TheLastOfManyBouncesIsNotToBlame) {
+  Phong white;
+  white.diffuse = Color(0.9), white.emissive = Color(0.05);
+  Scene room;
+  addObject(room, Cube{}, Affine::scaling({8, 8, 8}), white);
+  room.objects.back().name = "room";
+  room.camera.position = {0, 0, 2};
+  const PixelWhy why = whyOf(room, {.integrator = IntegratorKind::path, .depth = 4});
+  EXPECT_EQ(why.ray, -1) << why.sentence;
+  EXPECT_EQ(why.sentence.find("depth limit"), std::string::npos) << why.sentence;
+}
+
 TEST(PixelWhy, AShadowNamesWhatBlocksTheLight) {
   Scene scene = ballOf(grey());
   addObject(scene, Cube{}, Affine::translation({0, 0, 8}), grey());
@@ -114,6 +126,15 @@ TEST(PixelWhy, TheSummandsAddUpToTheRadiance) {
   for (const WhySummand& each : why.sum) sum = sum + each.color;
   const Color whole = explanation.tree.nodes.front().radiance;
   EXPECT_NEAR(sum.r, whole.r, 1e-12);
+  // Ray by ray the sum grows to the whole.
+  Real before = 0;
+  for (int rays = 0; rays <= static_cast<int>(explanation.tree.nodes.size()); ++rays) {
+    const Real after = sumAfter(why.sum, rays).r;
+    EXPECT_GE(after, before) << rays;
+    before = after;
+  }
+  EXPECT_EQ(sumAfter(why.sum, 0), Color(0));
+  EXPECT_NEAR(before, whole.r, 1e-12);
   EXPECT_EQ(why.sentence, "ball shows mostly light sun.");
   const bool named = std::any_of(why.sum.begin(), why.sum.end(),
                                  [](const WhySummand& each) { return each.name == "ambient"; });

@@ -713,6 +713,20 @@ TEST_F(WorkspaceTest, WhatIsBeingSavedIsSavedWhenTheWindowCloses) {
   EXPECT_NE(readFile(path("saved.ray")).find("moon"), std::string::npos);
 }
 
+TEST_F(WorkspaceTest, OtherFilesAreWrittenInTheBackgroundToo) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "40", {}}}));
+  workspace.saveBy(path("rays.svg"), [file = path("rays.svg")] { writeFile(file, "<svg/>"); });
+  EXPECT_TRUE(settled(workspace));
+  EXPECT_EQ(readFile(path("rays.svg")), "<svg/>");
+  bool written = false;
+  workspace.saveBy(path("scene.ray"), [&] { written = true; });
+  EXPECT_FALSE(settled(workspace));
+  EXPECT_FALSE(written);
+  workspace.saveBy(path("none/rays.svg"), [file = path("none/rays.svg")] { writeFile(file, "<svg/>"); });
+  EXPECT_FALSE(settled(workspace));
+}
+
 TEST_F(WorkspaceTest, WhatTheSceneIsMadeOfIsNotWrittenOver) {
   writePicture(path("land.png"), Picture(4, 4));
   const std::string land = readFile(path("land.png"));

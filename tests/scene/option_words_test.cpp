@@ -42,6 +42,20 @@ TEST(OptionWords, EveryOptionIsFoundByItsNameAndItsChoices) {
   }
 }
 
+TEST(OptionWords, NameLeastValuesThatAreNoQuantity) {
+  EXPECT_EQ(leastWordFor(findOption("height")), "auto");
+  EXPECT_EQ(leastWordFor(findOption("light-vertices")), "all");
+  EXPECT_EQ(leastWordFor(findOption("depth")), "");  // 0 bounces are a number of bounces
+  std::size_t named = 0;
+  for (const Option& option : options()) {
+    if (leastWordFor(option).empty()) continue;
+    ++named;
+    EXPECT_TRUE(option.kind == Option::Kind::integer || option.kind == Option::Kind::real) << option.name;
+    EXPECT_TRUE(option.least == 0 || option.least == -1) << option.name;
+  }
+  EXPECT_EQ(named, 27u);  // none is spelt otherwise than its option
+}
+
 TEST(OptionWords, AreHints) {
   using Names = std::vector<std::string_view>;
   EXPECT_EQ(optionsMeant("antialias"), (Names{"spp", "subdivide", "subdivide-threshold"}));

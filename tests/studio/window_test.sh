@@ -57,6 +57,8 @@ wait
 pixel 40 50
 rays
 ray 1
+save-rays rays.svg
+save-rays rays.png
 panel Scene
 select object 1
 panel Controls
@@ -68,6 +70,8 @@ code=0
 for picture in small.png window.png; do
   [[ "$(head -c 4 "$picture" | tail -c 3)" == PNG ]] || fail "$picture was not written"
 done
+grep -q '<svg' rays.svg || fail "the rays are not drawn as SVG"
+[[ "$(head -c 4 rays.png | tail -c 3)" == PNG ]] || fail "the rays are not drawn as PNG"
 (($(stat -c %s window.png) > 20000)) || fail "the window shows almost nothing"
 
 # The same file as from the command line; and a script fails when it should.

@@ -325,6 +325,16 @@ void Workspace::savePicture(const std::string& file) {
   });
 }
 
+void Workspace::saveBy(const std::string& file, std::function<void()> write) {
+  saving_.start([file, inputs = document.scene().inputs, write = std::move(write)](const Cancelled&) {
+    return outcomeOf(file, [&] {
+      checkIsNoInput(file, inputs);
+      write();
+      return Saved{{file}};
+    });
+  });
+}
+
 void Workspace::saveScene(const std::string& file) {
   if (!document.isOpen()) return fail({{.place = {.file = file}, .what = "not written: no scene is open"}});
   const bool ours = absolute(file) == document.file();

@@ -82,6 +82,9 @@ class Workspace {
 
   /// Writes what is rendered so far.
   void savePicture(const std::string& file);
+  /// Writes another file than picture and scene in the background: `write` does, and may throw. No file of
+  /// the scene is written over.
+  void saveBy(const std::string& file, std::function<void()> write);
   /// Writes the scene as a .ray file, which is the document's from now on.
   void saveScene(const std::string& file);
   /// Over its own file, unless that has changed since it was read: then it is read again first. Precondition:

@@ -40,13 +40,16 @@ std::string unsentRay(RayKind unsent, const RayNode& node, const Scene& scene) {
   }
 }
 
-/// About how much light an unsent ray would have brought, if what it came to were as bright as this.
+/// About how much light an unsent ray would have brought, if what it came to were as bright as this. A bounce
+/// that would be one of many is taken to bring as much as the camera ray, whose path has the same
+/// surroundings.
 constexpr Real kGuess = 0.5;
-Real unsentLight(RayKind unsent, const RayNode& node) {
-  Real share = 1;
-  if (node.bsdf && unsent == RayKind::reflection) share = brightness(whitted(*node.bsdf).reflective);
-  if (node.bsdf && unsent == RayKind::refraction) share = brightness(whitted(*node.bsdf).transmissive);
-  return kGuess * share;
+Real unsentLight(RayKind unsent, const RayNode& node, Real shown) {
+  if (node.bsdf && unsent == RayKind::reflection) return kGuess * brightness(whitted(*node.bsdf).reflective);
+  if (node.bsdf && unsent == RayKind::refraction)
+    return kGuess * brightness(whitted(*node.bsdf).transmissive);
+  constexpr Real kLeast = 1e-6;  // so that a black pixel still blames the limit
+  return std::clamp(shown, kLeast, kGuess);
 }
 
 class Search {
@@ -76,7 +79,7 @@ class Search {
     const RayNode& node = rayAt(tree_, ray);
     if (const auto* limit = std::get_if<DepthLimit>(&end)) {
       constexpr int kEnough = 5;  // for glass that light enters and leaves, seen through more glass
-      Loss loss{weight * unsentLight(limit->unsent, node), ray,
+      Loss loss{weight * unsentLight(limit->unsent, node, brightness(rayAt(tree_, 0).radiance)), ray,
                 unsentRay(limit->unsent, node, scene_) + " was not sent: depth limit " +
                     std::to_string(limit->limit)};
       const auto cure = [&](int depth) {
@@ -139,6 +142,20 @@ class Search {
   Loss worst_;
 };
 
+/// The last ray, in the order of tracing, of those that come from this one.
+int lastBelow(const RayTree& tree, int ray) {
+  std::vector<char> below(tree.nodes.size());
+  int last = ray;
+  below[static_cast<std::size_t>(ray)] = 1;
+  for (int i = ray + 1; i < static_cast<int>(tree.nodes.size()); ++i) {
+    const int parent = rayAt(tree, i).parent;
+    if (parent < 0 || !below[static_cast<std::size_t>(parent)]) continue;
+    below[static_cast<std::size_t>(i)] = 1;
+    last = i;
+  }
+  return last;
+}
+
 /// The camera ray's terms, in their order.
 std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene) {
   std::vector<WhySummand> sum;
@@ -151,10 +168,13 @@ std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene) {
     if (term.dark || (isBlack(color) && term.ray < 0 && !term.light)) continue;
     const auto same =
         std::find_if(sum.begin(), sum.end(), [&](const WhySummand& s) { return s.name == name; });
-    if (same == sum.end())
-      sum.push_back({name, color, term.ray});
-    else
+    const int last = term.ray < 0 ? 0 : lastBelow(tree, term.ray);
+    if (same == sum.end()) {
+      sum.push_back({name, color, term.ray, last});
+    } else {
       same->color = same->color + color;
+      same->last = std::max(same->last, last);
+    }
   }
   return sum;
 }
@@ -165,6 +185,13 @@ std::string thingSeen(const RayNode& root, const Scene& scene) {
 }
 
 }  // namespace
+
+Color sumAfter(const std::vector<WhySummand>& sum, int rays) {
+  Color after;
+  for (const WhySummand& each : sum)
+    if (each.last < rays) after = after + each.color;
+  return after;
+}
 
 PixelWhy whyOf(const RayTree& tree, const Scene& scene, const Settings& settings, Real exposure) {
   PixelWhy why;

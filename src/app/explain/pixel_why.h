@@ -16,7 +16,8 @@ namespace trace {
 struct WhySummand {
   std::string name;  ///< "reflection", "light lamp"
   Color color;
-  int ray = -1;  ///< the first ray that it came along; -1: none
+  int ray = -1;   ///< the first ray that it came along; -1: none
+  int last = -1;  ///< the last ray that it needs, in the order of tracing
 };
 
 /// A change that may cure the pixel: a value of an option, or a thing of the scene to look at.
@@ -33,6 +34,9 @@ struct PixelWhy {
   std::vector<WhySummand> sum;
   std::vector<WhyCure> cures;  ///< the strongest last
 };
+
+/// The sum after the first `rays` rays in the order of tracing: its terms of which no ray is missing.
+Color sumAfter(const std::vector<WhySummand>& sum, int rays);
 
 /// Explains the sample that the tree has. Black and dark are judged as the picture shows them, with this
 /// exposure in stops.

@@ -1,5 +1,6 @@
 #include "app/view/examples.h"
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <filesystem>
@@ -28,6 +29,8 @@ constexpr std::array kExamples{
     Row{"mirrors.ray", "Mirrors", "in mirrors"},
     Row{"textures.ray", "Textures", "colours that are patterns"},
     Row{"chess.ray", "Chess", "a board with its pieces"},
+    Row{"cornell.ray", "A lit room", "path tracing: walls light each other"},
+    Row{"photons.ray", "Caustics", "photon mapping: glass and brass focus the light"},
 };
 constexpr std::array kLessons{
     Row{"lessons/black-glass.ray", "Black glass", "Why is the ball black?"},
@@ -61,6 +64,20 @@ std::string examplesFolder(const std::string& program) {
   return "";
 }
 
+namespace {
+
+/// Few samples of light from all sides, without their noise.
+void takeBouncedLight(Settings& settings) {
+  constexpr int kSamples = 8, kMostBounces = 6;
+  settings.integrator = IntegratorKind::path;
+  settings.spp = kSamples;
+  settings.depth = std::min(settings.depth, kMostBounces);
+  settings.fireflyLimit = 1;
+  settings.denoise = true;
+}
+
+}  // namespace
+
 std::vector<ExampleScene> examplesIn(const std::string& folder) { return found(folder, kExamples); }
 std::vector<ExampleScene> lessonsIn(const std::string& folder) { return found(folder, kLessons); }
 
@@ -78,8 +95,7 @@ Bytes thumbnail(const std::string& file, int width) {
     settings.denoise = false;
     settings.shutter = 0;
     settings.caustics = 0;
-    if (hasTrait(settings, Trait::bounces) || hasTrait(settings, Trait::byChains))
-      settings.integrator = IntegratorKind::direct;
+    if (hasTrait(settings, Trait::bounces) || hasTrait(settings, Trait::byChains)) takeBouncedLight(settings);
     settings.threads = 1;  // the window comes first
     Session small;
     small.open(whole.scene(), settings);

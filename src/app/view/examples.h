@@ -21,7 +21,7 @@ std::vector<ExampleScene> examplesIn(const std::string& folder);
 /// Scenes with a mistake to be found.
 std::vector<ExampleScene> lessonsIn(const std::string& folder);
 
-/// A small picture of the scene of that file, of direct light. Empty if it cannot be read or rendered.
+/// A small picture of the scene of that file, with few samples. Empty if it cannot be read or rendered.
 Bytes thumbnail(const std::string& file, int width);
 
 }  // namespace trace

@@ -108,7 +108,10 @@ CameraFrame OrbitCamera::frame(Real viewAspect) const {
   Vec3 up;
   up[up_] = sign_;
   const Vec3 right = normalize(cross(up, back));
-  return {target_ + back * distance_, -back, right * (height_ * viewAspect), cross(back, right) * height_};
+  CameraFrame frame{target_ + back * distance_, -back, right * (height_ * viewAspect),
+                    cross(back, right) * height_};
+  frame.ahead = -back;
+  return frame;
 }
 
 }  // namespace trace

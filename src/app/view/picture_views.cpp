@@ -5,8 +5,10 @@
 #include <cstdio>
 
 #include "app/session/denoising.h"
+#include "image/comparison/compare.h"
 #include "image/comparison/false_color.h"
 #include "math/vec.h"
+#include "shading/texture.h"
 
 namespace trace {
 
@@ -145,6 +147,42 @@ Picture falseColours(const Picture& a, const Picture& b, double magnify) {
   Picture picture = differences(a, b, magnify);
   for (Color& c : picture.pixels) c = falseColour(maxComponent(c));
   return picture;
+}
+
+Picture channelOf(const Picture& picture, Channel channel) {
+  if (channel == Channel::all) return picture;
+  Picture grey = picture;
+  for (Color& c : grey.pixels)
+    c = Color(channel == Channel::red     ? c.r
+              : channel == Channel::green ? c.g
+              : channel == Channel::blue  ? c.b
+                                          : luminance(c));
+  return grey;
+}
+
+Histogram histogramOf(const Picture& picture) {
+  Histogram histogram;
+  const auto count = [&](std::size_t channel, double value) {
+    const double at = std::clamp(value, 0.0, 1.0) * Histogram::kBins;  // NaN counts at an end
+    const int bin = std::clamp(std::isnan(at) ? 0 : static_cast<int>(at), 0, Histogram::kBins - 1);
+    const int now = ++histogram.counts[channel][static_cast<std::size_t>(bin)];
+    if (bin > 0 && bin < Histogram::kBins - 1) histogram.most = std::max(histogram.most, now);
+  };
+  for (const Color& c : picture.pixels) {
+    count(0, c.r);
+    count(1, c.g);
+    count(2, c.b);
+  }
+  return histogram;
+}
+
+std::string differenceText(const Picture& a, const Picture& b) {
+  constexpr double kLevel = 1.0 / 255;
+  const Comparison so = compare(a, b, kLevel);
+  if (so.identical) return "the pictures are the same";
+  return formatted("RMSE %.3g, mean %.3g, largest %.3g at %d, %d; PSNR %.1f dB; %.3g %% of pixels differ",
+                   so.rmse, so.mean, so.maxDifference, so.worstX, so.worstY, so.psnr,
+                   100 * so.pixelFractionBeyond);
 }
 
 }  // namespace trace

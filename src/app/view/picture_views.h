@@ -1,6 +1,7 @@
 // Linear pictures made visible: with an exposure, or as their difference in false colours.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "image/development/tone.h"
@@ -21,6 +22,25 @@ Picture differences(const Picture& a, const Picture& b, double magnify);
 /// The largest difference of the channels of each pixel, times `magnify`: black where there is none, then
 /// blue, green, yellow, red, and white from 1 on. Precondition: the same size.
 Picture falseColours(const Picture& a, const Picture& b, double magnify);
+
+/// One channel of a picture, or all.
+enum class Channel { all, red, green, blue, luminance };
+inline constexpr const char* kChannelNames[] = {"Colours", "Red", "Green", "Blue", "Luminance"};
+
+/// That channel as grey; the picture itself for all.
+Picture channelOf(const Picture& picture, Channel channel);
+
+/// How many pixels have each value of a channel from 0 to 1; values outside count at the ends.
+struct Histogram {
+  static constexpr int kBins = 128;
+  std::array<std::array<int, kBins>, 3> counts{};  ///< red, green, blue
+  int most = 0;                                    ///< the largest of them between the ends
+};
+Histogram histogramOf(const Picture& picture);
+
+/// "RMSE 0.0123, mean 0.004, largest 0.5 at 12, 7; PSNR 38.2 dB; 12 % of pixels differ". Precondition: the
+/// same size.
+std::string differenceText(const Picture& a, const Picture& b);
 
 /// The picture with at most so many pixels along each side: each is the mean of a block of the others.
 Bytes fewerPixels(const Bytes& picture, int most);

@@ -8,6 +8,32 @@
 
 namespace trace::studio {
 
+namespace {
+
+/// Or on the next line.
+void roomFor(float wide) {
+  if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
+}
+
+/// Switches for those who compare: the channel, and the histogram.
+void drawComparing(PictureView& view) {
+  ImGui::SameLine();
+  roomFor(characters(13));
+  ImGui::SetNextItemWidth(characters(13));
+  int channel = static_cast<int>(view.channel);
+  if (ImGui::Combo("##channel", &channel, kChannelNames, static_cast<int>(std::size(kChannelNames))))
+    view.channel = static_cast<Channel>(channel);
+  landmark("channel");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("all channels, or one of them as grey");
+  ImGui::SameLine();
+  roomFor(ImGui::GetFrameHeight() + ImGui::CalcTextSize("histogram").x + ImGui::GetStyle().ItemSpacing.x);
+  ImGui::Checkbox("histogram", &view.histogramShown);
+  landmark("histogram");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("how many pixels have each level, from 0 to 1");
+}
+
+}  // namespace
+
 void drawBar(Studio& studio) {
   PictureView& view = studio.picture;
   const bool open = studio.workspace.document.isOpen();
@@ -35,11 +61,8 @@ void drawBar(Studio& studio) {
     view.zoom = 1;
   }
 
-  const auto roomFor = [](float wide) {  // else on the next line
-    if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
-  };
-  roomFor(characters(17));
-  ImGui::SetNextItemWidth(characters(17));
+  roomFor(characters(14));
+  ImGui::SetNextItemWidth(characters(14));
   ImGui::SliderFloat("##exposure", &view.exposure, -6, 6,
                      view.exposure == 0 ? "exposure 0" : "exposure %+.1f");
   if (ImGui::IsItemHovered())
@@ -63,6 +86,7 @@ void drawBar(Studio& studio) {
     ImGui::SetTooltip(
         "the picture, how many rays each pixel has, how much noise is left in it, or what denoise "
         "changed");
+  if (studio.workspace.reference() || !isShown(studio, "Rays")) drawComparing(view);
   if (!studio.workspace.reference()) {
     ImGui::SameLine();
     roomFor(ImGui::CalcTextSize("Compare...").x + 2 * ImGui::GetStyle().FramePadding.x);

@@ -48,7 +48,7 @@ void refresh(Studio& studio) {
   if (const auto session = workspace.render.session(); session && settings.autoExposure)
     settings.exposure += session->measuredExposure();
   const bool toneChanged = view.exposed != view.exposure || view.development != developmentOf(settings) ||
-                           view.rounding != settings.rounding;
+                           view.rounding != settings.rounding || view.channelShown != view.channel;
   bool pictureChanged = false;
   const double now = ImGui::GetTime(), interval = std::max(kLeastInterval, view.refreshCost / kMostShare);
   const bool due = !workspace.render.state().working() || now - view.refreshed > interval;
@@ -61,28 +61,34 @@ void refresh(Studio& studio) {
   }
   if (pictureChanged || view.development != developmentOf(settings))
     view.levels = developed(view.shown, developmentOf(settings));
-  if (view.shown.width > 0 && (pictureChanged || toneChanged))
-    view.pictureTexture.set(exposed(view.levels, view.exposure, settings.rounding));
+  if (view.shown.width > 0 && (pictureChanged || toneChanged)) {
+    view.pictureTexture.set(exposed(channelOf(view.levels, view.channel), view.exposure, settings.rounding));
+    view.histogram = histogramOf(view.levels);
+  }
   refreshPlane(studio, pictureChanged);
   const auto& reference = workspace.reference();
   const bool referenceChanged = view.referenceVersion != workspace.referenceVersion();
   if (reference && referenceChanged) view.view = View::swipe;
   if (reference && (referenceChanged || toneChanged))
-    view.referenceTexture.set(exposed(*reference, view.exposure, settings.rounding));
+    view.referenceTexture.set(exposed(channelOf(*reference, view.channel), view.exposure, settings.rounding));
   const bool compares = view.view == View::difference || view.view == View::falseColour;
   if (compares && reference && sameSize(view.shown, *reference) &&
       (pictureChanged || toneChanged || referenceChanged || view.differenceView != view.view ||
        view.differenceMagnify != view.magnify)) {
     const bool colours = view.view == View::falseColour;
     const Picture picture = workspace.referenceIsLinear() ? view.shown : clamped(view.levels);
-    const Picture difference = colours ? falseColours(picture, *reference, view.magnify)
-                                       : differences(picture, *reference, view.magnify);
+    const Picture seen = channelOf(picture, view.channel), other = channelOf(*reference, view.channel);
+    const Picture difference =
+        colours ? falseColours(seen, other, view.magnify) : differences(seen, other, view.magnify);
+    view.difference = differences(seen, other, 1);
+    view.errors = differenceText(seen, other);
     view.differenceTexture.set(toBytes(difference, Rounding::nearest));
     view.differenceView = view.view;
     view.differenceMagnify = view.magnify;
   }
   view.referenceVersion = workspace.referenceVersion();
   view.exposed = view.exposure;
+  view.channelShown = view.channel;
   view.development = developmentOf(settings);
   view.rounding = settings.rounding;
   if (pictureChanged) {
@@ -125,6 +131,94 @@ void caption(ImVec2 at, const char* text, float most) {
   list.AddRectFilled(at, {at.x + size.x + 2 * pad.x, at.y + size.y + 2 * pad.y}, IM_COL32(0, 0, 0, 170), 4);
   list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + pad.x, at.y + pad.y},
                IM_COL32(255, 255, 255, 255), text, nullptr, room);
+}
+
+/// The values of each pixel in it, where the picture is magnified so much that they have room.
+void numbersInPixels(const Studio& studio, const FrameArea& frame, ImVec2 low, ImVec2 high,
+                     const Picture& picture) {
+  const float line = ImGui::GetTextLineHeight(), zoom = studio.picture.zoom;
+  const ImVec2 digits = ImGui::CalcTextSize("0.000");
+  if (zoom < digits.x + 6 || zoom < 3 * line + 4 || picture.width == 0) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.PushClipRect(low, high, true);
+  const auto first = [&](float from, float corner) {
+    return std::max(0, static_cast<int>((from - corner) / zoom));
+  };
+  const auto last = [&](float to, float corner, int size) {
+    return std::min(size - 1, static_cast<int>((to - corner) / zoom));
+  };
+  constexpr ImU32 kColours[] = {IM_COL32(255, 130, 130, 255), IM_COL32(140, 235, 140, 255),
+                                IM_COL32(150, 180, 255, 255)};
+  for (int y = first(low.y, frame.low.y); y <= last(high.y, frame.low.y, picture.height); ++y)
+    for (int x = first(low.x, frame.low.x); x <= last(high.x, frame.low.x, picture.width); ++x) {
+      const Color& c = picture.at(x, y);
+      const double values[] = {c.r, c.g, c.b};
+      const ImVec2 middle = frame.at((x + 0.5) / picture.width, (y + 0.5) / picture.height);
+      list.AddRectFilled({middle.x - digits.x / 2 - 3, middle.y - 1.5f * line - 2},
+                         {middle.x + digits.x / 2 + 3, middle.y + 1.5f * line + 2}, IM_COL32(0, 0, 0, 150),
+                         3);
+      for (int i = 0; i < 3; ++i) {
+        char text[16];
+        std::snprintf(text, sizeof text, std::abs(values[i]) < 100 ? "%.3f" : "%.3g", values[i]);
+        const float wide = ImGui::CalcTextSize(text).x;
+        list.AddText({middle.x - wide / 2, middle.y + (static_cast<float>(i) - 1.5f) * line}, kColours[i],
+                     text);
+      }
+    }
+  list.PopClipRect();
+}
+
+/// The scale of the false colours, at the right edge.
+void drawScale(ImVec2 low, ImVec2 high, float magnify) {
+  constexpr int kSteps = 5;  // steps of falseColour()
+  const float line = ImGui::GetTextLineHeight(), bar = line, pad = ImGui::GetStyle().FramePadding.x;
+  const float wide = bar + 3 * pad + ImGui::CalcTextSize("0.0000").x,
+              top = std::max(low.y + 3 * line, (low.y + high.y) / 2 - 6 * line),
+              bottom = std::min(high.y - 2 * line, (low.y + high.y) / 2 + 6 * line);
+  if (bottom < top + kSteps * line) return;
+  const ImVec2 at{high.x - wide - 8, top};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({at.x - pad, top - line}, {high.x - 8, bottom + line}, IM_COL32(0, 0, 0, 170), 4);
+  const auto colour = [](double value) {
+    const Color c = falseColour(value);
+    return ImGui::GetColorU32(
+        ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1));
+  };
+  const auto height = [&](int step) { return bottom - (bottom - top) * static_cast<float>(step) / kSteps; };
+  for (int step = 0; step < kSteps; ++step) {
+    const ImU32 below = colour(step / double{kSteps}), above = colour((step + 1) / double{kSteps});
+    list.AddRectFilledMultiColor({at.x, height(step + 1)}, {at.x + bar, height(step)}, above, above, below,
+                                 below);
+  }
+  for (int step = 0; step <= kSteps; ++step) {
+    char text[24];
+    std::snprintf(text, sizeof text, "%.2g", step / (kSteps * static_cast<double>(magnify)));
+    list.AddText({at.x + bar + pad, height(step) - line / 2}, IM_COL32(255, 255, 255, 255), text);
+  }
+}
+
+/// The levels of the picture, in the lower right corner: heights are logarithms of the counts.
+void drawHistogram(const Studio& studio, ImVec2 low, ImVec2 high) {
+  const Histogram& histogram = studio.picture.histogram;
+  const ImVec2 size{std::min(characters(34), (high.x - low.x) * 0.6f),
+                    std::min(7 * ImGui::GetTextLineHeight(), (high.y - low.y) * 0.4f)};
+  if (size.x < 40 || size.y < 20 || histogram.most == 0) return;
+  const ImVec2 corner{high.x - size.x - 8, high.y - size.y - 8};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(0, 0, 0, 190), 4);
+  constexpr ImU32 kColours[] = {IM_COL32(255, 90, 90, 255), IM_COL32(90, 220, 90, 255),
+                                IM_COL32(110, 150, 255, 255)};
+  const float most = std::log1p(static_cast<float>(histogram.most));
+  for (std::size_t channel = 0; channel < 3; ++channel) {
+    ImVec2 line[Histogram::kBins];
+    for (std::size_t bin = 0; bin < Histogram::kBins; ++bin) {
+      const float share =
+          std::min(1.0f, std::log1p(static_cast<float>(histogram.counts[channel][bin])) / most);
+      line[bin] = {corner.x + 4 + (size.x - 8) * static_cast<float>(bin) / (Histogram::kBins - 1),
+                   corner.y + size.y - 4 - (size.y - 8) * share};
+    }
+    list.AddPolyline(line, Histogram::kBins, kColours[channel], 0, 1.5f);
+  }
 }
 
 void zoomAndPan(PictureView& view, const FrameArea& frame) {
@@ -232,8 +326,25 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     const float wide = ImGui::CalcTextSize("reference").x + 2 * ImGui::GetStyle().FramePadding.x;
     caption({end.x - wide - 8, corner.y}, "reference", area.x);
   } else if (mode != View::picture) {
-    caption(corner, kViewNames[static_cast<int>(mode)], area.x);
+    const std::string text =
+        std::string(kViewNames[static_cast<int>(mode)]) + (differs ? ": " + view.errors : std::string());
+    caption(corner, text.c_str(), area.x - 16);
+    landmark("caption");
   }
+  const Picture& linear = studio.workspace.referenceIsLinear() || !reference ? view.shown : view.levels;
+  if (!other.texture) {
+    if (mode == View::reference) {
+      numbersInPixels(studio, frame, canvas, end, *reference);
+    } else if (differs && comparable) {
+      numbersInPixels(studio, frame, canvas, end, view.difference);
+    } else if (mode != View::swipe) {
+      numbersInPixels(studio, frame, canvas, two ? ImVec2(canvas.x + part.x, end.y) : end, linear);
+      if (two && comparable)
+        numbersInPixels(studio, second, {canvas.x + part.x + kGap, canvas.y}, end, *reference);
+    }
+  }
+  if (mode == View::falseColour && comparable) drawScale(canvas, end, view.magnify);
+  if (view.histogramShown) drawHistogram(studio, canvas, end);
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const FrameArea& under = two && mouse.x > canvas.x + part.x ? second : frame;
@@ -297,16 +408,22 @@ void drawPicture(Studio& studio) {
   const ImVec2 canvas = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
   const float below = ImGui::GetFrameHeightWithSpacing() + ImGui::GetFrameHeightWithSpacing() +
                       (studio.workspace.reference() ? ImGui::GetTextLineHeightWithSpacing() : 0);
-  const ImVec2 area{room.x, room.y - below};
-  if (area.x < 8 || area.y < 8) return;
   PictureView& view = studio.picture;
+  const float options = isShown(studio, "Controls") ? 0 : view.optionsHeight;
+  const ImVec2 area{room.x, room.y - below - options};
+  if (area.x < 8 || area.y < 8) return;
   if (view.pictureTexture.empty() || view.waits) {
     ImGui::Dummy(area);
-    return drawStatus(studio, false, 0, 0);
+    drawStatus(studio, false, 0, 0);
+  } else {
+    int x = 0, y = 0;
+    const bool inside = drawClickable(studio, canvas, area, x, y);
+    drawStatus(studio, inside, x, y);
   }
-  int x = 0, y = 0;
-  const bool inside = drawClickable(studio, canvas, area, x, y);
-  drawStatus(studio, inside, x, y);
+  if (isShown(studio, "Controls")) return;
+  const float top = ImGui::GetCursorPosY();
+  drawFrequentOptions(studio);
+  view.optionsHeight = ImGui::GetCursorPosY() - top;
 }
 
 }  // namespace trace::studio

@@ -26,18 +26,25 @@ struct PictureView {
   float swipe = 0.5f;                   ///< share that shows the picture
   float magnify = 8;                    ///< magnify of the difference
   PixelChoice pixel;                    ///< that was clicked
+  Channel channel = Channel::all;       ///< what of the pictures is seen
+  bool histogramShown = false;
 
   // The contents of the textures.
   Texture pictureTexture, referenceTexture, differenceTexture;
-  bool waits = false;  ///< for the first picture of a scene
-  Picture shown;       ///< linear colours of the render
-  Picture levels;      ///< what the tone makes of them, whose levels pictureTexture shows
+  float optionsHeight = 0;  ///< height of the options below the picture, in the last frame
+  bool waits = false;       ///< for the first picture of a scene
+  Picture shown;            ///< linear colours of the render
+  Picture levels;           ///< what the tone makes of them, whose levels pictureTexture shows
   std::uint64_t shownVersion = ~std::uint64_t{0}, referenceVersion = ~std::uint64_t{0};
   double refreshed = 0, refreshCost = 0;  ///< seconds
   // How the textures were made.
   float exposed = 0;
   Development development;
   Rounding rounding = Rounding::truncate;
+  Channel channelShown = Channel::all;
+  Histogram histogram;   ///< histogram of the levels
+  std::string errors{};  ///< how far the picture and the reference are apart
+  Picture difference{};  ///< difference of the two, not magnified
   View differenceView = View::picture;
   float differenceMagnify = 0;
 

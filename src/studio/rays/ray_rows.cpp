@@ -1,5 +1,7 @@
 #include "studio/rays/ray_rows.h"
 
+#include "studio/widgets/field_editor.h"
+
 namespace trace::studio {
 
 ImVec4 rayColour(const Studio& studio, const TracedPixel& pixel, int ray) {
@@ -32,7 +34,7 @@ void columnHeads(std::initializer_list<const char*> help) {
 
 void cutText(const std::string& text) {
   const bool cut = ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x;
-  ImGui::TextUnformatted(text.c_str());
+  rowName(text);
   if (cut && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text.c_str());
 }
 

@@ -5,7 +5,11 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
+#include "app/view/ray_drawing.h"
+#include "base/files/file.h"
+#include "image/codecs/codec.h"
 #include "scene/integrators.h"
 #include "studio/panels.h"
 #include "studio/rays/ray_rows.h"
@@ -33,7 +37,12 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
         "keep these rays, then click another pixel or change an option: the tab Difference compares");
 
   const auto count = static_cast<int>(pixel.tree().nodes.size());
-  if (samples <= 1) ImGui::SameLine();
+  ImGui::SameLine();
+  if (samples > 1 || ImGui::GetContentRegionAvail().x < characters(46)) ImGui::NewLine();
+  if (ImGui::Button(view.playsAt >= 0 ? "Stop" : "Play")) playRays(studio);
+  landmark("play");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the rays one after the other, in the order of tracing (P)");
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   if (ImGui::ArrowButton("back", ImGuiDir_Left)) stepRays(studio, -1);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("one ray back in the order of tracing");
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
@@ -102,12 +111,47 @@ void drawNumbers(Studio& studio, const TracedPixel& pixel) {
   ImGui::EndTable();
 }
 
+/// The next ray, when its time has come.
+void playOn(Studio& studio) {
+  RaysView& view = studio.rays;
+  constexpr double kPause = 0.7;  // seconds for each ray
+  if (view.playsAt < 0 || ImGui::GetTime() < view.playsAt) return;
+  if (!shownPixel(studio) || view.step >= static_cast<int>(view.rays)) {
+    view.step = view.playsAt = -1;
+    return;
+  }
+  stepRays(studio, 1);
+  view.playsAt = ImGui::GetTime() + kPause;
+}
+
 }  // namespace
 
 const TracedPixel* shownPixel(const Studio& studio) {
   if (const TracedPixel* offered = studio.rays.chains.offered()) return offered;
   const TracedPixel* traced = studio.workspace.inspector.traced();
   return traced && traced->problem.empty() ? traced : nullptr;
+}
+
+void playRays(Studio& studio) {
+  RaysView& view = studio.rays;
+  if (view.playsAt >= 0) {
+    view.playsAt = -1;
+    return;
+  }
+  view.step = 0;
+  view.playsAt = ImGui::GetTime();
+}
+
+void saveRays(Studio& studio, const std::string& file) {
+  const TracedPixel& pixel = *shownPixel(studio);
+  studio.workspace.saveBy(file, [file, session = pixel.session, tree = pixel.tree()] {
+    const Drawing drawing =
+        drawRays(session->sceneOf(tree), session->settings(), session->worldOf(tree), tree);
+    if (std::filesystem::path(file).extension() == ".png")
+      writePicture(file, toPicture(drawing), Rounding::nearest);
+    else
+      writeFile(file, toSvg(drawing));
+  });
 }
 
 void stepRays(Studio& studio, int rays) {
@@ -146,6 +190,7 @@ void updateRays(Studio& studio) {
     inspector.want(nullptr, 0, 0, 0);
     view.chains.want(nullptr, 0, 0, -1);
   }
+  playOn(studio);
   const bool moved = view.chains.update();
   if (moved && view.chainMove < 0) view.revealMove = true;
   const bool traced = inspector.update();
@@ -155,6 +200,7 @@ void updateRays(Studio& studio) {
   const std::size_t count = shown->tree().nodes.size();
   if (shown->x != view.x || shown->y != view.y || count != view.rays) {
     view.step = -1;
+    view.playsAt = -1;
     const int fault = shown->why.ray;
     view.selected = fault >= 0 && fault < static_cast<int>(count) ? fault : count > 0 ? 0 : -1;
     view.scrollTo = view.selected;

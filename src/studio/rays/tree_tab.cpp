@@ -17,6 +17,14 @@ ImU32 faultColour(const Studio& studio) {
   return ImGui::GetColorU32(ImVec4(c.x, c.y, c.z, 0.3f));
 }
 
+/// How far each level is indented: less where the deepest of them would push its name out of the column.
+float indentOf(const TracedPixel& pixel, float column) {
+  const int deepest = pixel.level.empty() ? 0 : *std::max_element(pixel.level.begin(), pixel.level.end());
+  const float levels = static_cast<float>(std::clamp(deepest, 1, kMostIndented));
+  const float room = std::max(0.0f, column - ImGui::GetTreeNodeToLabelSpacing() - characters(8));
+  return std::min(ImGui::GetFontSize() * 0.75f, room / levels);
+}
+
 /// With so much room left free below it.
 void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<int>& rows, float below) {
   RaysView& view = studio.rays;
@@ -37,6 +45,7 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
       ImGui::SetScrollY(std::max(0.0f, top - room / 2));
   }
   view.scrollTo = -1;
+  float eachLevel = -1;  // once the column is known
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(rows.size()));
   while (clipper.Step())
@@ -60,8 +69,8 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
         ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + 0.25f * ImGui::GetFontSize(), high.y},
                                                   ImGui::GetColorU32(studio.palette().changed));
       }
-      const float indent =
-          static_cast<float>(std::min(pixel.level[n], kMostIndented)) * ImGui::GetFontSize() * 0.75f;
+      if (eachLevel < 0) eachLevel = indentOf(pixel, ImGui::GetContentRegionAvail().x);
+      const float indent = static_cast<float>(std::min(pixel.level[n], kMostIndented)) * eachLevel;
       ImGui::SetCursorPos({start.x + indent, start.y});
       ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_NoTreePushOnOpen;
       if (!pixel.hasChildren[n]) flags |= ImGuiTreeNodeFlags_Leaf;
@@ -112,8 +121,9 @@ void drawTree(Studio& studio, const TracedPixel& pixel) {
     ImGui::SetTooltip("all that is known of the selected ray (double click on its row)");
   ImGui::SameLine();
   ImGui::AlignTextToFramePadding();
-  ImGui::TextColored(rayColour(studio, pixel, view.selected), "%s",
-                     sentence(rayAt(pixel.tree(), view.selected), pixel.scene()).c_str());
+  ImGui::PushStyleColor(ImGuiCol_Text, rayColour(studio, pixel, view.selected));
+  cutText(sentence(rayAt(pixel.tree(), view.selected), pixel.scene()));
+  ImGui::PopStyleColor();
 }
 
 }  // namespace trace::studio

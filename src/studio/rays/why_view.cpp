@@ -30,36 +30,6 @@ void beside(float wide) {
   if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
 }
 
-void drawSum(Studio& studio, const TracedPixel& pixel) {
-  const std::vector<WhySummand>& sum = pixel.why.sum;
-  if (sum.empty()) return;
-  const Settings& settings = pixel.session->settings();
-  const Real exposure = settings.exposure + pixel.session->measuredExposure();
-  const float side = ImGui::GetTextLineHeight();
-  const auto swatch = [&](const char* id, const std::string& name, const Color& color) {
-    const bool pressed =
-        ImGui::ColorButton(id, swatchColour(color, exposure),
-                           ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {side, side});
-    const bool over = ImGui::IsItemHovered();
-    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-    ImGui::TextUnformatted(name.c_str());
-    if (over || ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", name.c_str(), channels(color).c_str());
-    return pressed || ImGui::IsItemClicked();
-  };
-  const float gaps = side + 2 * ImGui::GetStyle().ItemInnerSpacing.x + characters(3);
-  swatch("##sum", "=", pixel.tree().nodes.front().radiance);
-  landmark("sum");
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    const std::string name = sum[i].name.substr(0, sum[i].name.find(" (")) +  // its place is in the tree
-                             (i + 1 < sum.size() ? "  +" : "");
-    beside(gaps + ImGui::CalcTextSize(name.c_str()).x);
-    ImGui::PushID(static_cast<int>(i));
-    if (swatch("##term", name, sum[i].color) && sum[i].ray >= 0)
-      studio.rays.selected = studio.rays.scrollTo = sum[i].ray;
-    ImGui::PopID();
-  }
-}
-
 void drawCures(Studio& studio, const TracedPixel& pixel) {
   const std::vector<WhyCure>& cures = pixel.why.cures;
   if (cures.empty()) return;
@@ -82,6 +52,42 @@ void drawCures(Studio& studio, const TracedPixel& pixel) {
 }
 
 }  // namespace
+
+void drawSum(Studio& studio, const TracedPixel& pixel) {
+  const std::vector<WhySummand>& sum = pixel.why.sum;
+  if (sum.empty()) return;
+  const Settings& settings = pixel.session->settings();
+  const Real exposure = settings.exposure + pixel.session->measuredExposure();
+  const int step = studio.rays.step;
+  const float side = ImGui::GetTextLineHeight();
+  const auto swatch = [&](const char* id, const std::string& name, const Color& color) {
+    const bool pressed =
+        ImGui::ColorButton(id, swatchColour(color, exposure),
+                           ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {side, side});
+    const bool over = ImGui::IsItemHovered();
+    ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+    ImGui::TextUnformatted(name.c_str());
+    if (over || ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", name.c_str(), channels(color).c_str());
+    return pressed || ImGui::IsItemClicked();
+  };
+  const float gaps = side + 2 * ImGui::GetStyle().ItemInnerSpacing.x + characters(3);
+  const Color whole = pixel.tree().nodes.front().radiance;
+  swatch("##sum", "=", step < 0 || step >= static_cast<int>(studio.rays.rays) ? whole : sumAfter(sum, step));
+  landmark("sum");
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    const std::string name = sum[i].name.substr(0, sum[i].name.find(" (")) +  // its place is in the tree
+                             (i + 1 < sum.size() ? "  +" : "");
+    beside(gaps + ImGui::CalcTextSize(name.c_str()).x);
+    ImGui::PushID(static_cast<int>(i));
+    constexpr float kToCome = 0.3f;
+    const bool there = step < 0 || sum[i].last < step;
+    ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().Alpha * (there ? 1 : kToCome));
+    if (swatch("##term", name, there ? sum[i].color : Color(0)) && sum[i].ray >= 0)
+      studio.rays.selected = studio.rays.scrollTo = sum[i].ray;
+    ImGui::PopStyleVar();
+    ImGui::PopID();
+  }
+}
 
 void cure(Studio& studio, const TracedPixel&, const WhyCure& by, bool pins) {
   if (by.object) {

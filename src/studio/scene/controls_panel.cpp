@@ -44,6 +44,10 @@ std::string rangeText(const Option& option) {
     case Option::Kind::integer:
     case Option::Kind::real: break;
   }
+  const std::string_view word = leastWordFor(option);
+  if (!word.empty())
+    return std::string(word) + (option.most == kNoLimit ? ", or more" : ", or up to " + toText(option.most)) +
+           unit;
   if (option.most == kNoLimit) return toText(option.least) + unit + " or more";
   return toText(option.least) + " to " + toText(option.most) + unit;
 }
@@ -73,6 +77,7 @@ std::optional<std::string> editInteger(const Option& option, const std::string& 
   int number = std::stoi(value);
   NumberLook look{option.least, option.most, "%.0f" + unitSuffix(option, number)};
   look.name = option.name;
+  look.leastWord = leastWordFor(option);
   if (option.most <= kMostSlider)
     look.logarithmic = true;
   else
@@ -86,6 +91,7 @@ std::optional<std::string> editReal(const Option& option, const std::string& val
   const double range = option.most - option.least;
   NumberLook look{option.least, option.most, "%.6g" + unitSuffix(option, number)};
   look.name = option.name;
+  look.leastWord = leastWordFor(option);
   if (range <= kMostSlider)
     look.logarithmic = range > 10;
   else
@@ -191,6 +197,18 @@ std::optional<std::string> edit(Studio& studio, const Option& option, const std:
   return {};
 }
 
+/// One step for each time that the widget is held.
+void choose(Studio& studio, const Option& option, const std::string& value, unsigned id) {
+  const bool continues = studio.editedItem == id;
+  studio.editedItem = id;
+  try {
+    studio.workspace.choose(std::string(option.name), value, continues);
+  } catch (const Error& error) {
+    studio.workspace.report(error.messages());
+    studio.show("Log");
+  }
+}
+
 void row(Studio& studio, const Option& option, const Settings& defaults, const Settings& now) {
   const Document& document = studio.workspace.document;
   const std::string name(option.name), value = option.get(now);
@@ -220,18 +238,42 @@ void row(Studio& studio, const Option& option, const Settings& defaults, const S
   }
   ImGui::PopID();
   if (reset) return studio.workspace.reset(name);
-  if (!given || *given == value) return;
-  const bool continues = studio.editedItem == id;  // one step for each time the widget is held
-  studio.editedItem = id;
-  try {
-    studio.workspace.choose(name, *given, continues);
-  } catch (const Error& error) {
-    studio.workspace.report(error.messages());
-    studio.show("Log");
-  }
+  if (given && *given != value) choose(studio, option, *given, id);
 }
 
 }  // namespace
+
+void drawFrequentOptions(Studio& studio) {
+  constexpr std::string_view kFrequent[] = {"width", "spp", "depth", "integrator", "light-samples"};
+  const Settings now = studio.workspace.chosenSettings();
+  const float wide = characters(11), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const auto beside = [](float width) {
+    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+  };
+  for (const std::string_view name : kFrequent) {
+    const Option& option = findOption(name);
+    const std::string value = option.get(now);
+    ImGui::PushID(name.data());
+    beside(wide + gap + ImGui::CalcTextSize(name.data()).x);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", name.data());
+    if (ImGui::IsItemHovered()) tooltip(studio, option);
+    ImGui::SameLine(0, gap);
+    ImGui::SetNextItemWidth(wide);
+    const std::optional<std::string> given = edit(studio, option, value);
+    landmark("frequent " + std::string(name));
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) tooltip(studio, option);
+    const unsigned id = ImGui::GetID("edit");
+    ImGui::PopID();
+    if (given && *given != value) choose(studio, option, *given, id);
+    ImGui::SameLine();
+  }
+  const char* all = "All options...";
+  beside(ImGui::CalcTextSize(all).x + 2 * ImGui::GetStyle().FramePadding.x);
+  if (ImGui::Button(all)) studio.show("Controls");
+  landmark("all options");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the panel Controls (Alt+2)");
+}
 
 void drawControls(Studio& studio) {
   if (!studio.workspace.document.isOpen()) return ImGui::TextDisabled("no scene is open");

@@ -9,6 +9,8 @@
 
 #include "app/explain/chain_walk.h"
 #include "app/explain/pixel_inspector.h"
+#include "app/view/drag_pace.h"
+#include "app/view/gizmo.h"
 #include "app/view/orbit_camera.h"
 #include "app/view/scene_model.h"
 #include "app/view/way_pyramid.h"
@@ -44,6 +46,15 @@ struct InPlaceOfPicture {
   std::string caption{};             ///< "" if nothing is to be said of it
 };
 
+/// The handles of the selected thing, and the one that is held.
+struct GizmoHold {
+  GizmoMode mode = GizmoMode::move;
+  std::optional<Gizmo> held{};  ///< as it was when the mouse took hold of it
+  int handle = -1;
+  Vec2 from{};      ///< where the mouse did
+  Affine placed{};  ///< the thing's transform then
+};
+
 enum class Surfaces { shaded, wireframe, none };
 
 struct RaysView {
@@ -75,7 +86,11 @@ struct RaysView {
   int chainMove = -1;       ///< whose rays are asked for; -1: the one that came nearest to the pixel
   bool revealMove = false;  ///< the table scrolls to it
 
+  double playsAt = -1;  ///< seconds of Dear ImGui's clock when Play takes the next step; -1: it does not play
+
   // The view in space.
+  GizmoHold gizmo;
+  DragPace pace;
   std::unique_ptr<SceneDrawer> drawer;
   bool coarse = false;                      ///< the last frame drew it, and the next makes it smoother
   std::uint64_t pictureVersion = 0;         ///< version of the picture on its plane
@@ -101,6 +116,7 @@ struct RaysView {
   bool roomOpened = true;  ///< those of them that hide its inside are left out
   Surfaces surfaces = Surfaces::shaded;
   float opacity = 1;  ///< opacity of surfaces
+  bool flat = false, materialsShown = true, litByScene = false;
   bool boundsShown = false, normalsShown = false, lightsShown = true, cameraShown = true, axesShown = false;
   bool raysFramed = true;  ///< a click brings the pixel's rays into sight
   bool frameDue = false;   ///< the rays that are shown next are
@@ -124,6 +140,10 @@ const TracedPixel* shownPixel(const Studio& studio);
 /// So many rays on in the order of tracing, or back: from the first on if all are shown, or from the last
 /// back.
 void stepRays(Studio& studio, int rays);
+/// Plays the rays in the order of tracing, one after the other from the first; or stops that.
+void playRays(Studio& studio);
+/// Writes a drawing of the pixel's rays to a file, .svg or .png. Precondition: there are some.
+void saveRays(Studio& studio, const std::string& file);
 /// Finds the hierarchy boxes that the selected ray visited.
 void showBoxes(Studio& studio);
 /// The tab that lists the moves of a chain.
@@ -140,6 +160,8 @@ void updateWays(Studio& studio);
 InPlaceOfPicture wayAlone(const Studio& studio);
 /// Why the pixel has its colour: a sentence, the sum, and what may cure it.
 void drawWhy(Studio& studio, const TracedPixel& pixel);
+/// The pixel's colour as a sum of swatches: of the rays that are shown.
+void drawSum(Studio& studio, const TracedPixel& pixel);
 /// Chooses the cure, after pinning the pixel's rays if that is asked for.
 void cure(Studio& studio, const TracedPixel& pixel, const WhyCure& by, bool pins);
 /// The tab that compares the rays with those that were pinned.

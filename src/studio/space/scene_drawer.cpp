@@ -1,5 +1,6 @@
 #include "studio/space/scene_drawer.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <string>
@@ -32,22 +33,29 @@ void main() {
   gl_Position = matrix * vec4(position, 1);
 })";
 
-// Lit from the eye and a little from above, on both sides.
+// Lit from the eye and a little from above, or by the scene's lights; on both sides.
 const std::string kSurfaceFragment = std::string() + SeeThrough::kDeclarations + R"(
 in vec3 place, facing;
 uniform vec3 eye, inside;
 uniform bool wall;
 uniform vec4 colour;
+uniform bool flatly;
+uniform int lamps;
+uniform vec4 lampPlaces[8];  // w is 0 for a direction
+uniform vec3 lampColours[8];
 out vec4 result;
 void main() {
   vec3 across = cross(dFdx(place), dFdy(place));  // as app/view/room.h has it
   if (wall && dot(across, eye - place) * dot(across, inside - place) < 0.0) discard;
   peel();
-  vec3 n = normalize(facing), v = normalize(eye - place);
+  vec3 n = normalize(flatly ? across : facing), v = normalize(eye - place);
   if (dot(n, v) < 0.0) n = -n;
-  float light = 0.3 + 0.6 * dot(n, v) + 0.1 * n.y;
+  vec3 light = vec3(0.3 + 0.6 * dot(n, v) + 0.1 * n.y);
+  if (lamps > 0) light = vec3(0.15);
+  for (int i = 0; i < lamps; ++i)
+    light += lampColours[i] * max(0.0, dot(n, normalize(lampPlaces[i].xyz - lampPlaces[i].w * place)));
   float edge = pow(1.0 - dot(n, v), 3.0);
-  result = vec4(colour.rgb * light, mix(colour.a, 1.0, colour.a < 1.0 ? 0.5 * edge : 0.0));
+  result = vec4(colour.rgb * min(light, vec3(1)), mix(colour.a, 1.0, colour.a < 1.0 ? 0.5 * edge : 0.0));
 })";
 
 // A line is a quad that faces the eye: both ends come with every corner.
@@ -138,6 +146,8 @@ struct SceneDrawer::State {
   int width = 0, height = 0;
   std::array<float, 16> matrix{};
   Vec3 eye, inside;
+  bool flat = false;
+  std::vector<DrawLight> lights;
   SeeThrough seeThrough;
   std::optional<SpaceDrawing> shown;
   std::size_t steps = 0;  // number of kPlaces that are in the mean
@@ -151,7 +161,7 @@ struct SceneDrawer::State {
       glBindTexture(GL_TEXTURE_2D, name);
       glTexImage2D(GL_TEXTURE_2D, 0, format, w, h, 0, content, type, nullptr);
       glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+      glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, name == texture ? GL_LINEAR : GL_NEAREST);
     };
     make(texture, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE);
     make(mean, kFineFormat, GL_RGBA, kFineType);
@@ -172,6 +182,7 @@ struct SceneDrawer::State {
   void surfaces(const std::vector<DrawSurface>& parts);
   void wires(const std::vector<DrawSurface>& parts);
   void draw(const std::vector<DrawSurface>& parts, bool asWires);
+  void shineOn() const;
   void edges(const DrawSurface& part) const;
   void picture(const DrawPicture& picture);
   void lines(const std::vector<DrawLine>& lines, float hidden);
@@ -258,6 +269,8 @@ void SceneDrawer::State::begin(const SpaceDrawing& d, double x, double y) {
           static_cast<float>(d.matrix[row][i] + (row < 2 ? aside[row] * d.matrix[3][i] : 0));
   eye = d.eye;
   inside = d.inside;
+  flat = d.flat;
+  lights = d.lights;
   glBindFramebuffer(GL_FRAMEBUFFER, plain);
   glViewport(0, 0, width, height);
   glDisable(GL_SCISSOR_TEST);
@@ -340,6 +353,8 @@ void SceneDrawer::State::draw(const std::vector<DrawSurface>& parts, bool asWire
   };
   place("eye", eye);
   place("inside", inside);
+  glUniform1i(glGetUniformLocation(surface, "flatly"), flat);
+  shineOn();
   glBindVertexArray(surfaceArray);
   const int colour = glGetUniformLocation(surface, "colour"), wall = glGetUniformLocation(surface, "wall");
   for (const DrawSurface& part : parts) {
@@ -351,6 +366,22 @@ void SceneDrawer::State::draw(const std::vector<DrawSurface>& parts, bool asWire
     else
       glDrawArrays(GL_TRIANGLES, static_cast<int>(part.first), static_cast<int>(part.count));
   }
+}
+
+/// Hands the lights to the program of surfaces.
+void SceneDrawer::State::shineOn() const {
+  std::vector<float> places, colours;
+  const std::size_t count = std::min(lights.size(), SpaceDrawing::kMostLights);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (int axis = 0; axis < 3; ++axis) places.push_back(static_cast<float>(lights[i].place[axis]));
+    places.push_back(lights[i].far ? 0.0f : 1.0f);
+    for (const Real c : {lights[i].colour.r, lights[i].colour.g, lights[i].colour.b})
+      colours.push_back(static_cast<float>(c));
+  }
+  glUniform1i(glGetUniformLocation(surface, "lamps"), static_cast<int>(count));
+  if (count == 0) return;
+  glUniform4fv(glGetUniformLocation(surface, "lampPlaces"), static_cast<int>(count), places.data());
+  glUniform3fv(glGetUniformLocation(surface, "lampColours"), static_cast<int>(count), colours.data());
 }
 
 void SceneDrawer::State::surfaces(const std::vector<DrawSurface>& parts) { draw(parts, false); }

@@ -43,12 +43,23 @@ struct DrawPicture {
   bool operator==(const DrawPicture&) const = default;
 };
 
+/// A light that surfaces are shaded by.
+struct DrawLight {
+  Vec3 place;  ///< or the direction to it
+  bool far = false;
+  Color colour;
+  bool operator==(const DrawLight&) const = default;
+};
+
 /// All that there is to see.
 struct SpaceDrawing {
   int width = 0, height = 0;
   std::array<float, 4> background{};
   Matrix4 matrix{};
   Vec3 eye{}, inside{};
+  static constexpr std::size_t kMostLights = 8;
+  std::vector<DrawLight> lights{};  ///< at most so many; none: a light at the eye
+  bool flat = false;                ///< the normals of triangles, not those of their corners
   std::vector<DrawSurface> solid{}, clear{}, wires{};  ///< clear: others show through
   std::optional<DrawPicture> picture{};
   std::vector<DrawLine> lines{};

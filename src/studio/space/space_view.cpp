@@ -8,6 +8,7 @@
 
 #include "app/view/room.h"
 #include "scene/picture_size.h"
+#include "studio/space/gizmo_view.h"
 #include "studio/space/rays_view.h"
 #include "studio/space/space_lines.h"
 #include "studio/studio.h"
@@ -97,7 +98,9 @@ void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
   if (view.surfaces == Surfaces::none) return;
   for (const ScenePart& part : view.model.parts) {
     const float own = static_cast<float>(part.opacity);
-    DrawSurface surface{part.first, part.count, part.color, std::min(view.opacity, own)};
+    constexpr Color kPlain(0.7);
+    DrawSurface surface{part.first, part.count, view.materialsShown ? part.color : kPlain,
+                        view.materialsShown ? std::min(view.opacity, own) : view.opacity};
     surface.wall = view.roomOpened && std::binary_search(view.walls.begin(), view.walls.end(), part.object);
     if (view.surfaces == Surfaces::wireframe) {
       surface.opacity = kWire;
@@ -106,6 +109,23 @@ void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
     } else {
       (surface.opacity < 1 ? drawing.clear : drawing.solid).push_back(surface);
     }
+  }
+}
+
+/// The scene's lights that have a place or a direction, the brightest as bright as white.
+void addLights(const RaysView& view, const Scene& scene, SpaceDrawing& drawing) {
+  drawing.flat = view.flat;
+  if (!view.litByScene) return;
+  Real brightest = 1e-30;
+  for (const LightSource& source : scene.lights)
+    if (const Color* color = source.light.color()) brightest = std::max(brightest, maxComponent(*color));
+  for (const LightSource& source : scene.lights) {
+    const Vec3 *position = source.light.position(), *direction = source.light.direction();
+    const Color* color = source.light.color();
+    if (drawing.lights.size() == SpaceDrawing::kMostLights) break;
+    if (!color || (!position && !direction)) continue;
+    drawing.lights.push_back({position ? (*position - view.model.origin) / view.model.scale : -*direction,
+                              !position, *color * (0.85 / brightest)});
   }
 }
 
@@ -233,7 +253,7 @@ void drawSwitches(Studio& studio) {
   RaysView& view = studio.rays;
   const char* const kSurfaces[] = {"Shaded", "Wireframe", "No surfaces"};
   int surfaces = static_cast<int>(view.surfaces);
-  ImGui::SetNextItemWidth(characters(18));
+  ImGui::SetNextItemWidth(characters(15));
   if (ImGui::Combo("##surfaces", &surfaces, kSurfaces, 3)) view.surfaces = static_cast<Surfaces>(surfaces);
   ImGui::SameLine();
   if (ImGui::Button("Show...")) ImGui::OpenPopup("show");
@@ -246,6 +266,15 @@ void drawSwitches(Studio& studio) {
   ImGui::Checkbox("from camera", &view.fromCamera);
   landmark("from camera");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("look as the scene's camera does; turning leaves it");
+  if (studio.selected == Studio::Selected::object) {
+    const char* const kModes[] = {"Move", "Turn", "Scale"};
+    int mode = static_cast<int>(view.gizmo.mode);
+    beside("Scale", ImGui::GetFrameHeight());
+    ImGui::SetNextItemWidth(characters(11));
+    if (ImGui::Combo("##gizmo", &mode, kModes, 3)) view.gizmo.mode = static_cast<GizmoMode>(mode);
+    landmark("gizmo");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("what the handles of the selected object do (M, T, S)");
+  }
   beside("Reset", 0);
   if (ImGui::Button("Reset")) {
     view.orbitFile.clear();
@@ -261,6 +290,9 @@ void drawSwitches(Studio& studio) {
   ImGui::Checkbox("axes: x red, y green, z blue", &view.axesShown);
   ImGui::Checkbox("bounding boxes", &view.boundsShown);
   ImGui::Checkbox("normals of surfaces", &view.normalsShown);
+  ImGui::Checkbox("colours of materials", &view.materialsShown);
+  ImGui::Checkbox("flat shading: one normal for each triangle", &view.flat);
+  ImGui::Checkbox("lit by the scene's lights, not from the eye", &view.litByScene);
   ImGui::Checkbox("into closed rooms, from outside", &view.roomOpened);
   ImGui::Checkbox("normals at hits", &view.hitNormalsShown);
   ImGui::Checkbox("pinned rays", &view.pinnedShown);
@@ -359,7 +391,9 @@ void drawSpace(Studio& studio) {
   const Real aspect = size.x / size.y;
   const CameraFrame camera =
       frame(cameraFor(document.scene(), document.settings()), document.settings().cameraAxes);
-  moveCamera(studio, fitted(camera, aspect), size);
+  const SpaceFrame before{low, size, view.fromCamera ? fitted(camera, aspect) : view.orbit.frame(aspect)};
+  const bool holds = dragGizmo(studio, before);
+  if (!holds) moveCamera(studio, fitted(camera, aspect), size);
   const CameraFrame world = view.fromCamera ? fitted(camera, aspect) : view.orbit.frame(aspect);
   CameraFrame local = world;
   local.eye = (world.eye - view.model.origin) / view.model.scale;
@@ -370,14 +404,17 @@ void drawSpace(Studio& studio) {
   const ImGuiIO& io = ImGui::GetIO();
   const auto pixels = [](float length, float scale) { return std::max(1, static_cast<int>(length * scale)); };
   const ImVec4 background = ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg);
-  SpaceDrawing drawing{.width = pixels(size.x, io.DisplayFramebufferScale.x),
-                       .height = pixels(size.y, io.DisplayFramebufferScale.y),
+  const bool held = ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
+  const float share = view.pace.halves(held, io.DeltaTime) ? 0.5f : 1;
+  SpaceDrawing drawing{.width = pixels(size.x, share * io.DisplayFramebufferScale.x),
+                       .height = pixels(size.y, share * io.DisplayFramebufferScale.y),
                        .background = {background.x, background.y, background.z, 1},
                        .matrix = matrix,
                        .eye = local.eye,
                        .inside = (camera.eye - view.model.origin) / view.model.scale,
                        .hidden = kHidden};
   addSurfaces(view, drawing);
+  addLights(view, document.scene(), drawing);
   const Frustum frustum = frustumOf(camera, 0.5 * view.size / length(camera.look));
   const Texture& picture = studio.picture.pictureTexture;
   if (view.cameraShown && view.pictureShown && !view.fromCamera && !picture.empty()) {
@@ -393,13 +430,17 @@ void drawSpace(Studio& studio) {
     for (std::size_t i = 0; i < 4; ++i) drawing.picture->corners[i] = view.model.local(frustum.corners[i]);
   }
   drawing.lines = spaceLines(studio, frustum, world.eye);
-  const bool held = ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
+  for (DrawLine& line : drawing.lines) {
+    line.width *= share;
+    line.dash *= share;
+  }
   const bool rests = !held && studio.window.rested() > RaysView::kRest;
   ImGui::GetWindowDrawList()->AddImage(view.drawer->show(std::move(drawing), rests), low,
                                        {low.x + size.x, low.y + size.y}, {0, 1}, {1, 0});
   view.coarse = !held && view.drawer->coarse();
 
-  if (hovered && !ImGui::IsMouseDown(0)) {
+  const bool onHandle = drawGizmo(studio, {low, size, world});
+  if (hovered && !ImGui::IsMouseDown(0) && !onHandle) {
     const int under = rayUnderCursor(studio, matrix, low, size);
     if (under >= 0) {
       const TracedPixel& pixel = *shownPixel(studio);

@@ -84,6 +84,7 @@ std::optional<double> numberIn(const std::string& typed, const NumberLook& look,
     return {};
   }
   const std::string text = typed.substr(first, typed.find_last_not_of(" \t") + 1 - first);
+  if (!look.leastWord.empty() && text == look.leastWord) return look.least;
   const std::optional<ParsedNumber> number = parseNumber(text);
   if (number && number->length == text.size()) return taken(number->value, look, whole);
   remark(look, whole, '"' + text + '"', "not taken" + commaHint(text));
@@ -124,9 +125,11 @@ bool editNumberField(const char* label, double& value, const NumberLook& look, b
   char full[64];
   std::snprintf(full, sizeof full, look.format.c_str(), value);
   const float room = ImGui::CalcItemWidth() - ImGui::GetStyle().FramePadding.x / 2;
-  const std::string text = shortNumber(value, look.format, [room](const std::string& spelt) {
-    return ImGui::CalcTextSize(spelt.c_str()).x <= room;
-  });
+  const bool word = value == look.least && !look.leastWord.empty();
+  const std::string text =
+      word ? std::string(look.leastWord) : shortNumber(value, look.format, [room](const std::string& spelt) {
+        return ImGui::CalcTextSize(spelt.c_str()).x <= room;
+      });
   const bool shortened = text != full;  // then it stands over the widget's own text, with which typing begins
   const std::string format = shortened ? "%.15g" : look.format;
   const ImGuiSliderFlags flags = (look.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
@@ -142,7 +145,7 @@ bool editNumberField(const char* label, double& value, const NumberLook& look, b
     if (!ImGui::TempInputIsActive(id))
       ImGui::RenderTextClipped(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), text.c_str(), nullptr,
                                nullptr, {0.5f, 0.5f});
-    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
+    if (!word && ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
       const std::size_t unit = look.format.find(' ', look.format.find("%."));
       ImGui::SetTooltip("%s%s", toText(value).c_str(),
                         unit == std::string::npos ? "" : look.format.substr(unit).c_str());

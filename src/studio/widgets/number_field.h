@@ -14,7 +14,8 @@ struct NumberLook {
   float speed = 0;           ///< for each pixel that it is dragged; 0: a slider
   bool logarithmic = false;  ///< the slider
   bool clamped = true;
-  std::string_view name{};  ///< for remarks
+  std::string_view name{};       ///< for remarks
+  std::string_view leastWord{};  ///< shown, and accepted, in place of the least number; "" if none is
 };
 
 /// The text after the number: " rays", of one " ray"; "" without a unit.

@@ -51,9 +51,11 @@ void setColours(const Shades& s) {
                       ImGuiCol_ScrollbarGrabActive});
   set(s.header, {ImGuiCol_Header, ImGuiCol_HeaderHovered, ImGuiCol_HeaderActive, ImGuiCol_TabHovered,
                  ImGuiCol_TabActive, ImGuiCol_TabUnfocusedActive});
-  set(s.accent, {ImGuiCol_CheckMark, ImGuiCol_SliderGrab, ImGuiCol_PlotHistogram, ImGuiCol_SeparatorHovered,
+  set(s.accent, {ImGuiCol_SliderGrab}, 0.4f);  // the number of a slider is written over it
+  set(s.accent, {ImGuiCol_CheckMark, ImGuiCol_PlotHistogram, ImGuiCol_SeparatorHovered,
                  ImGuiCol_ResizeGripHovered, ImGuiCol_NavHighlight});
-  set(s.accentHovered, {ImGuiCol_SliderGrabActive, ImGuiCol_SeparatorActive, ImGuiCol_ResizeGripActive});
+  set(s.accentHovered, {ImGuiCol_SliderGrabActive}, 0.6f);
+  set(s.accentHovered, {ImGuiCol_SeparatorActive, ImGuiCol_ResizeGripActive});
   set(s.accent, {ImGuiCol_TextSelectedBg}, 0.35f);
   set(s.muted, {ImGuiCol_TableRowBgAlt}, 0.06f);
   set(0x000000, {ImGuiCol_TableRowBg}, 0);
