@@ -29,7 +29,7 @@ PixelWhy whyOf(const Scene& scene, Settings settings, int x = 20, int y = 20) {
   session.open(scene, settings);
   session.build();
   const Explanation explanation = session.explain(x, y, 0);
-  return trace::whyOf(explanation.tree, session.scene(), session.settings(), 0);
+  return trace::whyOf(explanation.tree, session.scene(), 0);
 }
 
 Phong grey() {
@@ -121,7 +121,7 @@ TEST(PixelWhy, TheSummandsAddUpToTheRadiance) {
   session.open(scene, settings);
   session.build();
   const Explanation explanation = session.explain(20, 20, 0);
-  const PixelWhy why = trace::whyOf(explanation.tree, session.scene(), session.settings(), 0);
+  const PixelWhy why = trace::whyOf(explanation.tree, session.scene(), 0);
   Color sum;
   for (const WhySummand& each : why.sum) sum = sum + each.color;
   const Color whole = explanation.tree.nodes.front().radiance;

@@ -35,8 +35,7 @@ void arrange(TracedPixel& pixel) {
   }
   pixel.ways = pathWays(pixel.tree());
   const Session& session = *pixel.session;
-  pixel.why = whyOf(pixel.tree(), pixel.scene(), session.settings(),
-                    session.settings().exposure + session.measuredExposure());
+  pixel.why = whyOf(pixel.tree(), pixel.scene(), session.settings().exposure + session.measuredExposure());
 }
 
 }  // namespace

@@ -54,8 +54,7 @@ Real unsentLight(RayKind unsent, const RayNode& node, Real shown) {
 
 class Search {
  public:
-  Search(const RayTree& tree, const Scene& scene, const Settings& settings)
-      : tree_(tree), scene_(scene), settings_(settings) {}
+  Search(const RayTree& tree, const Scene& scene) : tree_(tree), scene_(scene) {}
 
   /// The largest loss.
   Loss run() {
@@ -138,7 +137,6 @@ class Search {
 
   const RayTree& tree_;
   const Scene& scene_;
-  const Settings& settings_;
   Loss worst_;
 };
 
@@ -193,7 +191,7 @@ Color sumAfter(const std::vector<WhySummand>& sum, int rays) {
   return after;
 }
 
-PixelWhy whyOf(const RayTree& tree, const Scene& scene, const Settings& settings, Real exposure) {
+PixelWhy whyOf(const RayTree& tree, const Scene& scene, Real exposure) {
   PixelWhy why;
   if (tree.nodes.empty()) return why;
   const RayNode& root = rayAt(tree, 0);
@@ -206,7 +204,7 @@ PixelWhy whyOf(const RayTree& tree, const Scene& scene, const Settings& settings
     why.sentence = head + sentence(root, scene) + ".";
     return why;
   }
-  Loss loss = Search(tree, scene, settings).run();
+  Loss loss = Search(tree, scene).run();
   const bool matters = loss.amount * scale > std::max(shown, 0.5 * kBlack);
   if (matters || (black && loss.amount > 0)) {
     why.sentence = (head.empty() ? std::string(loss.head) : head) + loss.why + ".";

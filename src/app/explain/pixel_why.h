@@ -40,6 +40,6 @@ Color sumAfter(const std::vector<WhySummand>& sum, int rays);
 
 /// Explains the sample that the tree has. Black and dark are judged as the picture shows them, with this
 /// exposure in stops.
-PixelWhy whyOf(const RayTree& tree, const Scene& scene, const Settings& settings, Real exposure);
+PixelWhy whyOf(const RayTree& tree, const Scene& scene, Real exposure);
 
 }  // namespace trace

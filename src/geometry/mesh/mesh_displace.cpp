@@ -35,8 +35,8 @@ MeshData cutInFour(const MeshData& mesh) {
     addMiddle(result.uvs, mesh.uvs, e.a, e.b);
     addMiddle(result.secondUvs, mesh.secondUvs, e.a, e.b);
     if (!mesh.tangents.empty()) {
-      const MeshTangent &a = mesh.tangents[e.a], &b = mesh.tangents[e.b];
-      result.tangents.push_back({Vec3f(Vec3(a.direction) + Vec3(b.direction)), a.side});
+      const MeshTangent &first = mesh.tangents[e.a], &last = mesh.tangents[e.b];
+      result.tangents.push_back({Vec3f(Vec3(first.direction) + Vec3(last.direction)), first.side});
     }
     return point;
   };

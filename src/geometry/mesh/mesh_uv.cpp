@@ -62,7 +62,7 @@ Vec2 onCube(const Vec3& p, const Box3& box, const Vec3& normal) {
   return {across / size, (axis == 2 ? d.y : d.z) / size};
 }
 
-struct Key {
+struct PointKey {
   std::uint32_t point;
   float u, v;
 };
@@ -81,7 +81,7 @@ MeshData withProjectedUvs(const MeshData& given, UvProjection projection) {
   const bool isRound = projection == UvProjection::spherical || projection == UvProjection::cylindrical;
   const Box3 box = bounds(mesh);
   MeshData result;
-  Unique<Key> points;
+  Unique<PointKey> points;
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const Triangle& t = mesh.triangles[i];
     std::array<Vec2, 3> uv;

@@ -96,11 +96,11 @@ bool isBinaryGltf(std::string_view bytes) { return bytes.starts_with(kMagic); }
 
 namespace {
 
-tinygltf::Model checkedGltf(const std::string& file, std::string_view bytes, const nlohmann::json& json,
+tinygltf::Model checkedGltf(const std::string& file, std::string_view bytes, const nlohmann::json& root,
                             const Place& place, InputFiles& inputs, Messages& messages) {
-  checkGltf(json, place, messages);
-  checkGltfBuffers(json, place);
-  checkGltfTree(json, place);
+  checkGltf(root, place, messages);
+  checkGltfBuffers(root, place);
+  checkGltfTree(root, place);
   GltfFiles files{{}, inputs, place, messages};
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks({GltfFiles::exists, GltfFiles::expand, GltfFiles::readWhole, nullptr, &files});
