@@ -49,7 +49,7 @@ cmake -S pasted -B pasted/build -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DCMAK
 # The face for C: a program in C99, and each function that the header declares is there.
 cc -std=c99 -Wall -Wextra -Wpedantic -Werror "$checkout/examples/c/open_and_explain.c" -o open_and_explain $flags \
   -Wl,-rpath,"$(dirname "$folder/$library")" >log 2>&1 || fail "compiling the example in C"
-./open_and_explain "$scene" c.png >log 2>&1 && [[ -s c.png ]] && grep -q '^pixel 32,20' log || fail "open_and_explain"
+./open_and_explain "$scene" c.png >log 2>&1 && [[ -s c.png ]] && grep -q ', pixel 32,20 of' log || fail "open_and_explain"
 ! ./open_and_explain no_such.ray c.png >log 2>&1 || fail "a missing scene is rendered from C"
 grep -q 'no_such.ray' log || fail "the message does not name the file"
 comm -23 <(grep -oE 'traceray_[a-z_]+\(' "$checkout/include/traceray/traceray_c.h" | tr -d '(' | sort -u) \

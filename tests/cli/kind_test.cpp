@@ -97,7 +97,7 @@ TEST(KindSettings, WhatAQualityBringsInVainIsLeftOut) {
   };
   EXPECT_EQ(with("whitted").fireflyLimit, 0);
   EXPECT_GT(with("path").fireflyLimit, 0);
-  EXPECT_FALSE(with("bdpt").denoise);
+  EXPECT_TRUE(with("bdpt").denoise);
   EXPECT_FALSE(with("mlt").denoise);
   EXPECT_EQ(with("mlt").noiseTarget, 0);
   Messages messages;

@@ -49,7 +49,7 @@ TEST(Csg, VolumesOfRandomTreesAddUp) {
     const auto any = [&]() -> Operand {
       for (;;) {
         const Shape& shape = shapes[static_cast<size_t>(random.below(static_cast<int>(shapes.size())))];
-        if (isSolid(prepare(shape)))
+        if (isSolid(prepare(shape)) && !boundsOf(prepare(shape)).unbounded())
           return operandAt(
               shape, Affine::rotation(random.direction(), 1) * movedBy(random.uniform(-0.5, 0.5), 0, 0));
       }

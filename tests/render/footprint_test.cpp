@@ -115,6 +115,8 @@ void checkSlopes(const Shape& shape, test::Random& random, int rays) {
     EXPECT_NEAR(dot(byU, pair.a.surface.normal), 0, 1e-6 * length(byU));
   });
   if (folded(shape)) return;  // at the scale of a step it has no tangents
+  constexpr int kTooFew = 20;  // pairs that have met a thin strand both
+  if (uv.all < kTooFew) return;
   // The rest are rays to either side of an edge, and near poles.
   EXPECT_GE(uv.share(), 0.95) << uv.good << " of " << uv.all;
   EXPECT_GE(normal.share(), 0.95) << normal.good << " of " << normal.all;
