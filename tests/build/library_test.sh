@@ -19,7 +19,8 @@ find usr/include -type f | sed 's|^usr/include/||' | sort >log
 [[ "$(cat log)" == "traceray/traceray.h"$'\n'"traceray/traceray_c.h" ]] || fail "headers are installed that are not public"
 nm -DC --defined-only "$library" | sed -E 's/^[0-9a-f]* . //' |
   grep -vE '^((typeinfo (name )?for |vtable for )?traceray::|traceray_[a-z_]+$)' >log && fail "these names are seen outside:"
-nm -DC --defined-only "$library" | grep -q 'traceray::Scene::render' || fail "the library shows no Scene::render"
+nm -DC --defined-only "$library" >log  # a pipe into grep -q may be cut off
+grep -q 'traceray::Scene::render' log || fail "the library shows no Scene::render"
 
 # The header compiles alone, with warnings as errors, and needs nothing of the floors.
 flags="$(PKG_CONFIG_PATH="$(dirname "$(find "$folder/usr" -name traceray.pc)")" pkg-config --cflags --libs traceray)"
