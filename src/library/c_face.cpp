@@ -86,6 +86,16 @@ std::string given(const char* text) {
   return text;
 }
 
+/// The text that work() makes of the scene or picture, which keeps it.
+template <class Handle, class Work>
+const char* kept(Handle* handle, const Work& work) noexcept {
+  return attempted<const char*>(nullptr, [&] {
+    Handle& of = given(handle);
+    of.text = work(of);
+    return of.text.c_str();
+  });
+}
+
 std::string joined(std::span<const Problem> problems) {
   std::string text;
   for (const Problem& problem : problems) text += problem.text;
@@ -120,11 +130,7 @@ traceray_scene* newScene(Scene scene) { return new traceray_scene{std::move(scen
 
 const char* explained(traceray_render* render, int x, int y, int sample,
                       const std::string& (Explanation::*as)() const) {
-  return attempted<const char*>(nullptr, [&] {
-    traceray_render& of = given(render);
-    of.text = (of.render.explain(x, y, sample).*as)();
-    return of.text.c_str();
-  });
+  return kept(render, [&](traceray_render& of) { return (of.render.explain(x, y, sample).*as)(); });
 }
 
 }  // namespace
@@ -212,18 +218,10 @@ int traceray_set_transform(traceray_scene* scene, const char* object, const doub
 }
 
 const char* traceray_warnings(traceray_scene* scene) {
-  return attempted<const char*>(nullptr, [&] {
-    traceray_scene& of = given(scene);
-    of.text = joined(of.scene.warnings());
-    return of.text.c_str();
-  });
+  return kept(scene, [&](traceray_scene& of) { return joined(of.scene.warnings()); });
 }
 const char* traceray_lint(traceray_scene* scene) {
-  return attempted<const char*>(nullptr, [&] {
-    traceray_scene& of = given(scene);
-    of.text = joined(of.scene.lint());
-    return of.text.c_str();
-  });
+  return kept(scene, [&](traceray_scene& of) { return joined(of.scene.lint()); });
 }
 int traceray_save(traceray_scene* scene, const char* file) {
   return succeeds([&] { given(scene).scene.save(given(file)); });
@@ -250,18 +248,10 @@ int traceray_is_finished(const traceray_render* render) {
   return attempted(0, [&] { return static_cast<int>(given(render).render.finished()); });
 }
 const char* traceray_end(traceray_render* render) {
-  return attempted<const char*>(nullptr, [&] {
-    traceray_render& of = given(render);
-    of.text = of.render.end();
-    return of.text.c_str();
-  });
+  return kept(render, [&](traceray_render& of) { return of.render.end(); });
 }
 const char* traceray_render_warnings(traceray_render* render) {
-  return attempted<const char*>(nullptr, [&] {
-    traceray_render& of = given(render);
-    of.text = joined(of.render.warnings());
-    return of.text.c_str();
-  });
+  return kept(render, [&](traceray_render& of) { return joined(of.render.warnings()); });
 }
 
 const float* traceray_light(traceray_render* render) {
@@ -287,11 +277,7 @@ const unsigned char* traceray_png(traceray_render* render, size_t* size) {
   });
 }
 const char* traceray_write(traceray_render* render, const char* file) {
-  return attempted<const char*>(nullptr, [&] {
-    traceray_render& of = given(render);
-    of.text = of.render.write(given(file));
-    return of.text.c_str();
-  });
+  return kept(render, [&](traceray_render& of) { return of.render.write(given(file)); });
 }
 
 const char* traceray_explain(traceray_render* render, int x, int y, int sample) {
