@@ -187,6 +187,8 @@ TEST(RayErrors, WhatOtherProgramsSayInAnotherWayHasAHint) {
   };
   for (const char* size : {"radius", "size", "height"})
     holds("box { " + std::string(size) + " = 2 }", "scale(2) { box { } } makes it twice as large");
+  holds("sphere { material = { colour = (1, 0, 0) } }", "diffuse = (red, green, blue) is its colour");
+  holds("sphere { center = (1, 2, 3) }", "translate(1, 2, 3) { sphere { } } puts it there");
   holds("cone { position = (1, 2, 3) }", "translate(1, 2, 3) { cone { } } puts it there");
   holds("torus { color = (1, 0, 0) }", "material = { diffuse = (red, green, blue) } is its colour");
   holds("sphere { material = { colr = (1, 0, 0) } }", "diffuse = (red, green, blue) is its colour");

@@ -34,7 +34,7 @@ class Painter {
 
  private:
   void tell(const Omissions& left);
-  /// Whether that part of a texture, whose fields are painted one by one, is met for the first time.
+  /// Whether that part of a texture, whose fields are painted one by one, is seen for the first time.
   bool isFirst(const void* part) { return met_.insert(part).second; }
   struct Look {
     Paint diffuse, ambient, emissive, specular, reflective, transmissive;

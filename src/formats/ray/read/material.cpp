@@ -241,9 +241,6 @@ void Materials::unknownField(const Block& block, const Item& field) {
   for (const ModelType& type : modelTypes())
     for (const ModelField& f : MaterialModel(type).fields())
       if (f.keyword == key) having.push_back(type.keyword);
-  if (having.empty() && key == "colour" && findings_.isOfKind())
-    return findings_.error(field, "material has no field \"colour\"",
-                           "diffuse = (red, green, blue) is its colour");
   if (having.empty() && (key == kTexture || key == "map") && findings_.isOfKind())
     return findings_.error(field, "material has no field \"" + std::string(key) + "\"",
                            "a texture takes the place of a field's value: diffuse = map(\"a.png\")");

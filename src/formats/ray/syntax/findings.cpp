@@ -34,8 +34,6 @@ constexpr std::pair<std::string_view, std::string_view> kInstead[]{
     {"light_source", "Trace has point_light { position = (2, 4, 3); color = (1, 1, 1); }"},
     {"light", "Trace has point_light { }, directional_light { }, spot_light { } and rectangle_light { }"},
     {"cube", "Trace has box { }, of side 1 around the origin"},
-    {"center", "translate(x, y, z) { sphere { } } puts it there"},
-    {"centre", "translate(x, y, z) { sphere { } } puts it there"},
     {"pigment", "Trace has diffuse = (red, green, blue); in a material"},
     {"finish", "Trace has specular, shininess and reflective in a material"},
     {"interior", "Trace has transmissive and index in a material"},
@@ -82,7 +80,8 @@ std::string partOf(std::string_view word, std::span<const std::string_view> know
 
 constexpr std::array<std::string_view, 7> kSizes{"radius", "size",  "width",   "height",
                                                  "length", "depth", "diameter"};
-constexpr std::array<std::string_view, 4> kPlaces{"position", "translate", "at", "origin"};
+constexpr std::array<std::string_view, 6> kPlaces{"position",  "center", "centre",
+                                                  "translate", "at",     "origin"};
 constexpr std::array<std::string_view, 5> kColours{"color", "colour", "diffuse", "texture", "albedo"};
 
 /// For a field by which other programs say what Trace says around the object or in its material.
