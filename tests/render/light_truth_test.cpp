@@ -9,7 +9,9 @@
 #include "geometry/shapes/solids/plane.h"
 #include "geometry/shapes/solids/sphere.h"
 #include "geometry/shapes/solids/square.h"
+#include "render/integrators/make_integrator.h"
 #include "render/media/media.h"
+#include "render/picture/explain.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"
 #include "shading/lights/projector_light.h"
@@ -233,6 +235,124 @@ TEST(LightTruth, APaneTakesNoBounceOfTheLightThatCrossesIt) {
     scene.materials[0].model.edit<Phong>()->shadow = 0.5;
     scene.lights[0].light.edit<PointLight>()->extraHighlight = Color(0.5);
     expectAllShow(scene, settings, 0.02, depth > 0);
+  }
+}
+
+/// Each kind of emitter that paths hit: what they are named, and how it comes above belowSheets().
+std::vector<std::pair<std::string, void (*)(Scene&)>> emitters() {
+  static constexpr auto shining = [](Scene& scene, const Shape& shape, Real size) {
+    addObject(scene, shape, Affine::translation({0.4, 1.8, 0.3}) * kUp * scaled(size), diffuse(0, 8));
+  };
+  return {{"a square", [](Scene& s) { shining(s, Square{}, 0.8); }},
+          {"a sphere", [](Scene& s) { shining(s, Sphere{}, 0.4); }},
+          {"a box", [](Scene& s) { shining(s, Cube{}, 0.5); }},
+          {"the sky",
+           [](Scene& s) {
+             s.background.gradient = {{Color(0.1), Color(2)}};
+           }},
+          {"an even sky",
+           [](Scene& s) {
+             s.background.gradient = {{Color(1), Color(1)}};
+           }},
+          {"a sky and a square", [](Scene& s) {
+             shining(s, Square{}, 0.8);
+             s.background.gradient = {{Color(0.1), Color(1)}};
+           }}};
+}
+
+/// belowSheets(), lit by that emitter alone.
+Scene belowSheets(const Material& material, void (*addEmitter)(Scene&), int sheets) {
+  Scene scene = belowSheets(material, PointLight{}, sheets);
+  scene.lights.clear();
+  addEmitter(scene);
+  return scene;
+}
+
+TEST(LightTruth, EveryEmitterShinesThroughPanes) {
+  Settings settings = settingsOf(IntegratorKind::path, 64);
+  settings.depth = 12;
+  for (const auto& [name, material] : straightSheets())
+    for (const auto& [kind, add] : emitters()) {
+      if (name == "an index of 1") continue;  // photons bring that light, and blur it
+      SCOPED_TRACE(name + ", " + kind);
+      expectAllShow(belowSheets(material, add, 1), settings, 0.04, kind == "a square", 8);
+    }
+}
+
+TEST(LightTruth, PathsThroughPanesSumUp) {
+  Settings settings = settingsOf(IntegratorKind::path, 4);
+  settings.photons = 2000, settings.threads = 1;
+  const auto sheets = straightSheets();
+  for (const IntegratorKind by : {IntegratorKind::direct, IntegratorKind::path, IntegratorKind::photon,
+                                  IntegratorKind::bdpt, IntegratorKind::whitted})
+    for (const auto& [kind, add] : emitters()) {
+      SCOPED_TRACE(kind);
+      settings.integrator = by;
+      const Scene scene = belowSheets(sheets[1].second, add, 2);
+      const World world = build(scene, settings);
+      Job job;
+      const auto integrator = makeIntegrator(world, settings, job);
+      for (int n = 0; n < 24; ++n)
+        EXPECT_TRUE(sumsUp(explain(world, *integrator, settings, {12, 12}, n % 12, 3 + n / 12, n % 4).tree));
+    }
+}
+
+TEST(LightTruth, HowOftenPathsBounceTakesNoEmitterFromBehindPanes) {
+  Settings settings = settingsOf(IntegratorKind::path, 1024);
+  Material glass;
+  glass.model = ThinGlass{};
+  for (const auto& [kind, add] : emitters()) {
+    SCOPED_TRACE(kind);
+    settings.integrator = IntegratorKind::direct;
+    const Scene scene = belowSheets(glass, add, 2);
+    const Real direct = mean(picture(scene, settings));
+    settings.integrator = IntegratorKind::path;
+    for (const int depth : {0, 1, 2}) {
+      SCOPED_TRACE(depth);
+      settings.depth = depth;
+      // What the panes mirror back to the floor is 12 % of the light at most.
+      const Real ratio = mean(picture(scene, settings)) / direct;
+      EXPECT_GT(ratio, 0.99);
+      EXPECT_LT(ratio, depth == 0 ? 1.01 : 1.13);
+    }
+  }
+}
+
+TEST(LightTruth, EmittersShineThroughPanesOnWhatFloatsInTheAir) {
+  Settings settings = settingsOf(IntegratorKind::path, 512);
+  settings.fog = 0.4, settings.mediumDepth = 8, settings.depth = 12;
+  Material glass;
+  glass.model = ThinGlass{};
+  for (const auto& [kind, add] : emitters())
+    if (!kind.ends_with("sky")) {  // fog hides it
+      SCOPED_TRACE(kind);
+      expectAllShow(belowSheets(glass, add, 1), settings, 0.04, false, 8);
+    }
+}
+
+TEST(LightTruth, WhatCastsNoShadowMayBeAPane) {
+  Settings settings = settingsOf(IntegratorKind::path, 256);
+  settings.depth = 12;
+  ThinGlass tinted;
+  tinted.color = {0.5, 0.5, 0.5};
+  Material glass;
+  glass.model = tinted;
+  for (const auto& [kind, add] : emitters()) {
+    SCOPED_TRACE(kind);
+    if (kind != "a square") continue;  // what it does not shade, light passes whole
+    Material air = glass;
+    air.castsShadow = false;
+    Material none;
+    none.opacity = 0;
+    settings.integrator = IntegratorKind::direct;
+    EXPECT_NEAR(mean(picture(belowSheets(air, add, 1), settings)) /
+                    mean(picture(belowSheets(none, add, 1), settings)),
+                1, 0.01);
+    settings.integrator = IntegratorKind::path;
+    settings.depth = 1;
+    EXPECT_NEAR(mean(picture(belowSheets(air, add, 1), settings)) /
+                    mean(picture(belowSheets(none, add, 1), settings)),
+                1, 0.06);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "shading/lights/projector_light.h"
 #include "shading/lights/rectangle_light.h"
 #include "shading/lights/warn_light.h"
+#include "shading/materials/thin_glass.h"
 #include "support/random.h"
 #include "support/rooms.h"
 
@@ -138,8 +139,8 @@ TEST(SeenLights, AreExplained) {
 
 // --- portals ------------------------------------------------------------------------------------------
 
-/// A room with a window at its +z side under a sky, and the camera in it.
-Scene roomWithWindow(bool portal) {
+/// A room with a window at its +z side under a sky, and the camera in it; before the window so many panes.
+Scene roomWithWindow(bool portal, int panes = 0) {
   Scene scene;
   const auto wall = [&](const Affine& place) { addObject(scene, Square{}, place, diffuse(0.5)); };
   const auto turned = [](const Vec3& axis, Real quarters) {
@@ -158,8 +159,36 @@ Scene roomWithWindow(bool portal) {
   }
   scene.background.gradient = {Color(2), Color(2)};
   if (portal) scene.lights.push_back({Portal{.position = {0, 0, 1}, .u = {0.4, 0, 0}, .v = {0, 0.4, 0}}, {}});
+  if (panes > 0) scene.materials.push_back({"", ThinGlass{}, {}});
+  for (int n = 0; n < panes; ++n)
+    scene.objects.push_back({"",
+                             Square{},
+                             Affine::translation({0, 0, 1.01 + 0.01 * n}) * scaled(0.5),
+                             static_cast<std::uint32_t>(scene.materials.size() - 1),
+                             {}});
   scene.camera.position = {0, 0, 0.5}, scene.camera.viewdir = {0.2, -0.3, -1};
   return scene;
+}
+
+/// The mean square error of a path traced picture.
+Real errorOf(const Scene& scene, const Settings& settings, const Picture& exact) {
+  const Picture rough = picture(scene, settings);
+  Real sum = 0;
+  for (std::size_t i = 0; i < rough.pixels.size(); ++i)
+    sum += std::pow(rough.pixels[i].g - exact.pixels[i].g, 2);
+  return sum / static_cast<Real>(rough.pixels.size());
+}
+
+TEST(Portals, LightARoomThroughPanes) {
+  Settings many = settingsOf(IntegratorKind::path, 8, 2048), few = many;
+  many.depth = few.depth = 4;
+  few.spp = 64, few.seed = 5;
+  const Real open = errorOf(roomWithWindow(true), few, picture(roomWithWindow(true), many));
+  for (const int panes : {1, 2}) {
+    SCOPED_TRACE(panes);
+    const Scene closed = roomWithWindow(true, panes);
+    EXPECT_LT(errorOf(closed, few, picture(closed, many)), 2 * open);
+  }
 }
 
 TEST(Portals, GiveTheSameLightWithLessNoise) {
@@ -167,17 +196,9 @@ TEST(Portals, GiveTheSameLightWithLessNoise) {
   settings.depth = 2;
   const Picture exact = picture(roomWithWindow(false), settings);
   EXPECT_NEAR(meanColor(picture(roomWithWindow(true), settings)).g / meanColor(exact).g, 1, 0.01);
-  const auto error = [&](bool portal) {
-    Settings few = settings;
-    few.spp = 64;
-    few.seed = 5;
-    const Picture rough = picture(roomWithWindow(portal), few);
-    Real sum = 0;
-    for (std::size_t i = 0; i < rough.pixels.size(); ++i)
-      sum += std::pow(rough.pixels[i].g - exact.pixels[i].g, 2);
-    return sum;
-  };
-  EXPECT_LT(error(true), 0.3 * error(false));
+  settings.spp = 64, settings.seed = 5;
+  EXPECT_LT(errorOf(roomWithWindow(true), settings, exact),
+            0.3 * errorOf(roomWithWindow(false), settings, exact));
 }
 
 TEST(Portals, DensitiesIntegrateToOne) {

@@ -228,7 +228,13 @@ class TreeText {
     if (left > 0)
       line("+ " + counted(left, "term") + " below the last digit of the sum" +
            (rays.empty() || rays.size() > kMostNamed ? "" : ", of" + rays));
-    if (!(node.through == Color(1))) line("* medium " + digits(node.through) + " passes");
+    for (std::size_t i = 0; i < node.filters.size(); ++i) {
+      const Filter& filter = node.filters[i];
+      line("through " + printable(explained.filters[i].name) + " at distance " + digits(filter.t) +
+           ", which passes " + digits(filter.factor));
+    }
+    if (!(node.through == Color(1)))
+      line((node.filters.empty() ? "* medium " : "* ") + digits(node.through) + " passes");
     line("= " + digits(node.radiance));
   }
 

@@ -193,7 +193,8 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
       row("filtered by " + objectName(scene, filter.object), text(filter.factor) + " at " + text(filter.t));
 
   row("Result", "");
-  if (!(node.through == Color(1))) row("passed by the medium", text(node.through));
+  if (!(node.through == Color(1)))
+    row(node.filters.empty() ? "passed by the medium" : "passes", text(node.through));
   row(node.kind == RayKind::shadow ? "share that passes" : "radiance", text(node.radiance));
   row("weight in the pixel", text(node.weight));
   row("adds to the pixel", text(node.weight * node.radiance));

@@ -90,7 +90,10 @@ void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path,
   Real counts = share(1, t, others, sample);
   if (!(counts > 0)) return;
   const Ray ray = at.leave(toLight);
-  const Color seen = lamps_.look(tracer, ray, *place, at.side(toLight), tracer.chance(numbers));
+  const Color seen = [&] {
+    const Tracer::Joining joining(tracer);
+    return lamps_.look(tracer, ray, *place, at.side(toLight), tracer.chance(numbers));
+  }();
   if (tracer.passedShadowless()) counts = share(1, t, 0, sample);
   if (!tracer.world().media().empty() && !isBlack(seen))
     light *= passedByBodies(tracer, ray, place->distance, sampler.branch(Branch::bdptToLamp));

@@ -2,31 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "render/paths/onward.h"
 #include "render/paths/subsurface.h"
 #include "shading/materials/subsurface.h"
 
 namespace trace {
-
-namespace {
-
-/// How often a path continues that was scattered that many times and carries so much of what it brings to the
-/// sample. Short ones and those that carry half of it surely: to end them spares less time than the noise
-/// costs.
-Real survival(int bounces, const Color& weight) {
-  constexpr int kSurely = 3;
-  const Real carries = 2 * maxComponent(weight);
-  return bounces < kSurely && carries > 0 ? 1 : std::min(carries, 1.0);
-}
-
-/// A direction of that density, which another way of choosing gives with the density `other`: the two are
-/// weighed by the power heuristic.
-ChanceTerm weighed(Real density, Real other) {
-  return {density, other, other > 0 ? density * density / (density * density + other * other) : 1};
-}
-
-}  // namespace
 
 void PathTracer::prepare(const World& world, const Settings& settings, Job&) {
   lamps_ = Lamps(world, settings.threads);
@@ -52,7 +34,7 @@ std::optional<Color> PathTracer::arrive(Tracer& tracer, Path& path, const std::o
                                         Turns& turns) const {
   const World& world = tracer.world();
   const Ray& ray = path.ray;
-  const bool known = terminator_ && terminator_->knowsEmitter(path.told, path.kind);
+  const bool known = terminator_ && !(path.density > 0) && terminator_->knowsEmitter(path.told, path.kind);
   const auto lamp =
       path.asked || path.within || known ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
   const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
@@ -75,7 +57,8 @@ std::optional<Color> PathTracer::arrive(Tracer& tracer, Path& path, const std::o
   }
   if (!hit) {
     if (world.outside().isSeenBy(path.kind) && !known) {
-      const ChanceTerm met = weighed(path.density, path.density > 0 ? lamps_.density(ray) : 0);
+      const Ray whole{path.from, ray.direction};
+      const ChanceTerm met = weighed(path.density, path.density > 0 ? lamps_.density(whole) : 0);
       sum.add(Term::Kind::background, Color(met.share), world.outside().view(ray, path.kind).color, met);
     }
     return turns.end();
@@ -101,10 +84,15 @@ std::optional<Color> PathTracer::arrive(Tracer& tracer, Path& path, const std::o
 
   // Le, which a place on the lamp finds as well.
   if (!known && !path.within) {
-    const ChanceTerm met = weighed(path.density, path.density > 0 ? lamps_.density(ray.origin, *hit) : 0);
+    const ChanceTerm met = weighed(path.density, path.density > 0 ? lamps_.density(path.from, *hit) : 0);
     sum.add(Term::Kind::emissive, Color(met.share), at.material.emissive, met);
   }
+  const bool pane = meetsBehind(path, at);
   if (last) {
+    if (const auto behind = pane ? Onward(at, choice.y).only(RayKind::refraction) : std::nullopt) {
+      follow(path, turn, at, footprint.get(), *behind, behind->weight);
+      return {};
+    }
     sum.stop(DepthLimit{RayKind::bounce, path.depth > depth_ ? depth_ : mostScattered_});
     return turns.end();
   }
@@ -155,29 +143,39 @@ std::optional<Color> PathTracer::arrive(Tracer& tracer, Path& path, const std::o
     return turns.end();
   }
   const RayKind kind = next->kind;
-  const bool bounces = kind == RayKind::bounce;
+  const bool crosses = pane && kind == RayKind::refraction;
   const Color weight = kind == RayKind::refraction ? next->weight * onward.response() : next->weight;
   const Real goes = survival(path.depth, path.weight * weight);
-  if (path.depth >= depth_ && !bounces) {
+  if (path.depth >= depth_ && kind != RayKind::bounce && !crosses) {
     sum.stop(DepthLimit{kind, depth_});
-  } else if (!(goes > 0) || !left.brings(kind)) {
+  } else if (!(goes > 0) || !(crosses || left.brings(kind))) {
     sum.stop(BelowThreshold{kind, 0, 0});
   } else if (goes < 1 && path.numbers.branch(Branch::roulette).next() >= goes) {
     sum.stop(Roulette{kind, goes});
   } else {
-    turn.factor = weight * (1 / goes);
-    turn.weight = path.weight * turn.factor;
-    turn.density = bounces ? next->density * toLobe : 0;
-    path.asked = bounces || (kind == RayKind::refraction && path.asked && tracer.lightPasses(at.bsdf()));
+    turn.density = next->density * toLobe;
     if (terminator_) path.told = Terminator::onward(path.told, left, kind);
-    ++path.depth;
-    path.weight = turn.weight;
-    path.density = turn.density;
-    path.within = false;
-    goOn(path, turn, at, footprint.get(), *next);
+    follow(path, turn, at, footprint.get(), *next, weight * (1 / goes));
     return {};
   }
   return turns.end();
+}
+
+/// The path continues with that ray, whose light the turn counts by `factor`.
+void PathTracer::follow(Path& path, Turn& turn, const Interaction& at, const Differentials* arrived,
+                        const Onward::Ray& next, const Color& factor) const {
+  const bool through = next.kind == RayKind::refraction, crosses = through && meetsBehind(path, at);
+  turn.factor = factor;
+  turn.weight = path.weight = path.weight * factor;
+  path.asked = next.kind == RayKind::bounce || (through && path.asked && at.tracer.lightPasses(at.bsdf()));
+  path.within = false;
+  ++path.depth;
+  if (!crosses)
+    path.density = turn.density;
+  else if (!at.tracer.world().castsShadow(at.hit))  // its light was sampled whole: none is left to meet
+    path.density = std::numeric_limits<Real>::min();
+  goOn(path, turn, at, arrived, next);
+  if (!crosses) path.from = path.ray.origin;
 }
 
 /// Gathers and turns the path where a medium on the way scatters it.
@@ -210,6 +208,7 @@ std::optional<Color> PathTracer::scatter(Tracer& tracer, Path& path, const Mediu
   ++path.scattered;
   path.weight = turn.weight;
   path.density = density;
+  path.from = at.point;
   path.asked = true;
   path.kind = RayKind::bounce;
   path.footprint = {};

@@ -33,6 +33,7 @@ class PathTracer : public Integrator {
     int scattered = 0;    ///< number of times, by media
     Color weight{1};      ///< weight of the ray's radiance in the sample
     Real density = 0;     ///< density of its direction, among lobes; 0 where there was one only
+    Vec3 from;            ///< place for which that holds: panes may lie between it and the ray
     bool within = false;  ///< it runs in a body, from where light comes out
     /// It was scattered, and on through nothing but glass that shadow rays pass: lights were asked.
     bool asked = false;
@@ -50,6 +51,12 @@ class PathTracer : public Integrator {
   std::optional<Color> arrive(Tracer& tracer, Path& path, const std::optional<Hit>& hit, Turns& turns) const;
   std::optional<Color> scatter(Tracer& tracer, Path& path, const MediumWay& way,
                                const MediumWay::Place& place, Turns& turns) const;
+  /// Straight behind the surface the path still meets the lamps for which the place before it was asked.
+  static bool meetsBehind(const Path& path, const Interaction& at) {
+    return path.density > 0 && at.tracer.isPane(at.bsdf());
+  }
+  void follow(Path& path, Turn& turn, const Interaction& at, const Differentials* arrived,
+              const Onward::Ray& next, const Color& factor) const;
   void addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& numbers) const;
 
   bool bounces_;

@@ -8,7 +8,7 @@
 
 #include "base/budget.h"
 #include "render/integrators/photon.h"
-#include "render/paths/interaction.h"
+#include "render/paths/onward.h"
 #include "render/samples/hashed_numbers.h"
 #include "render/samples/pixel.h"
 #include "shading/materials/lambert.h"
@@ -81,16 +81,11 @@ class PhotonTracer::CacheFiller {
       return;
     }
     if (depth >= settings_.depth) return;
-    const auto shares = at.shares();
-    const bool mirrors =
-        shares.empty() || maxComponent(at.mirror(false)) >= maxComponent(at.filter(shares[0]));
-    const auto through = mirrors ? std::nullopt : at.through(shares[0]);
-    if (mirrors && isBlack(at.mirror(false))) return;
-    const Vec3 direction = through ? *through : mirrored(ray.direction, at.normal);
-    const Ray onward = hit.leave(direction);
-    Interfaces there = through ? at.behind() : inside;
-    const RayKind kind = through ? RayKind::refraction : RayKind::reflection;
-    if (const auto met = tracer.cast(onward, kind, there)) follow(onward, *met, there, depth + 1, use);
+    const auto next = strongestOf(at);
+    if (!next) return;
+    const Ray onward = hit.leave(next->direction);
+    Interfaces there = next->in(inside);
+    if (const auto met = tracer.cast(onward, next->kind, there)) follow(onward, *met, there, depth + 1, use);
   }
 
   IrradianceRecord seenFrom(const Interaction& at, const Pixel& pixel) {
@@ -108,6 +103,7 @@ class PhotonTracer::CacheFiller {
       Path path{{at.leaveToLight(direction), at.inside, own.branch(2), RayKind::bounce}};
       path.depth = 1;
       path.density = std::numeric_limits<Real>::min();  // lamps are sampled, and never hit
+      path.from = path.ray.origin;
       path.asked = true;
       path.told = {
           .maps = static_cast<std::size_t>(n) % path_.maps_.size(), .gathers = true, .bounced = true};

@@ -289,7 +289,8 @@ Real Lamps::skyStartDensity(const Vec3& toLight) const {
 bool Lamps::isPlain(const Tracer& tracer, const Place& place, const Interfaces& inside) const {
   const World& world = tracer.world();
   return place.object != kNone && world.isUniform(place.object) && !world.hasHoles() &&
-         !world.hasShadowless() && !inside.nested() && !(tracer.settings().fog > 0) && !tracer.records();
+         !world.hasShadowless() && !world.hasPanes() && !inside.nested() && !(tracer.settings().fog > 0) &&
+         !tracer.records();
 }
 
 Color Lamps::look(Tracer& tracer, const Ray& ray, Place& place, const Interfaces& from, Real chance) const {
@@ -303,13 +304,14 @@ Color Lamps::look(Tracer& tracer, const Ray& ray, Place& place, const Interfaces
   }
   Interfaces inside = from;
   const std::optional<Hit> hit = tracer.cast(ray, RayKind::lamp, inside, chance, place.object);
+  const Color& passes = tracer.passedPanes();
   Gather light(tracer, 1);
   if (!hit) {
     if (place.object == kNone) {
       light.add(Term::Kind::background, tracer.world().outside().view(ray, RayKind::lamp).color);
       coverWithFog(light, tracer, ray, kInfinity, inside);
     }
-    return light.radiance();
+    return light.radiance(passes);
   }
   const PlaceBsdf bsdf = tracer.world().shade(*hit);
   light.note(*bsdf);
@@ -323,7 +325,7 @@ Color Lamps::look(Tracer& tracer, const Ray& ray, Place& place, const Interfaces
   } else {
     light.stop(Blocked{hit->object, hit->part, hit->t, sharesOf(hit->materials)});
   }
-  return light.radiance(inside.passed(hit->t));
+  return light.radiance(inside.passed(hit->t) * passes);
 }
 
 Color Lamps::sent(Tracer& tracer, const Ray& ray, Place& place) const {

@@ -86,8 +86,8 @@ class Lamps {
     if (place.object == kNone || at.object != place.object) return false;
     return parts_[first_[place.object]].kind != Part::Kind::triangle || at.part == place.part;
   }
-  /// The radiance of the place along the ray to it, which starts in `inside`; 0 if something is in the way.
-  /// `chance` is Tracer::chance().
+  /// The radiance of the place along the ray to it, which starts in `inside`; 0 if something is in the way
+  /// that is no pane (Tracer::passedPanes). `chance` is Tracer::chance().
   Color look(Tracer& tracer, const Ray& ray, Place& place, const Interfaces& inside, Real chance) const;
   /// The radiance that the place sends along that ray to it, whatever is in the way.
   Color sent(Tracer& tracer, const Ray& ray, Place& place) const;

@@ -43,8 +43,7 @@ void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lam
   if (!place.medium) return sum.add(Term::Kind::fog, factor, seen);
   if (!tracer.world().media().empty() && !isBlack(seen))
     factor *= passedByBodies(tracer, toLamp, lamp->distance, numbers.branch(Branch::scatteredToLamp));
-  const Real other = met && !shadowless ? scattered : 0, square = lamp->density * lamp->density;
-  const ChanceTerm chance{lamp->density, other, other > 0 ? square / (square + other * other) : 1};
+  const ChanceTerm chance = weighed(lamp->density, met && !shadowless ? scattered : 0);
   sum.add(factor * chance.share, seen, *place.medium, chance);
 }
 

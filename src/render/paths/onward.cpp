@@ -91,4 +91,14 @@ std::optional<Onward::Ray> Onward::only(RayKind kind, bool fromLight) const {
   return ray;
 }
 
+std::optional<Onward::Ray> strongestOf(const Interaction& at) {
+  const auto shares = at.shares();
+  const Color mirror = at.mirror(false), filter = shares.empty() ? Color(0) : at.filter(shares[0]);
+  const bool mirrors = shares.empty() || maxComponent(mirror) >= maxComponent(filter);
+  if (mirrors && isBlack(mirror)) return {};
+  const auto through = mirrors ? std::nullopt : at.through(shares[0]);
+  if (through) return Onward::Ray{RayKind::refraction, *through, filter, 0, at.ratio(shares[0]), at.behind()};
+  return Onward::Ray{RayKind::reflection, mirrored(at.ray.direction, at.normal), mirror};
+}
+
 }  // namespace trace

@@ -24,6 +24,15 @@ Color scatteredOn(const Interaction& at, const Vec3& toEye, const Vec3& toLight,
 /// a path from a light may have hit it on the other.
 Frame frameToward(const Interaction& at, const Vec3& toEye);
 
+/// How often a path continues that was scattered that many times and carries so much of what it brings to the
+/// sample: Russian roulette. Short ones and those that carry half of it surely: to end them spares less time
+/// than the noise costs.
+inline Real survival(int bounces, const Color& weight) {
+  constexpr int kSurely = 3;
+  const Real carries = 2 * maxComponent(weight);
+  return bounces < kSurely && carries > 0 ? 1 : std::min(carries, 1.0);
+}
+
 /// The numbers that choose a direction in a lobe, from 0 up to 1.
 struct LobeNumbers {
   Real which;
@@ -120,6 +129,9 @@ inline std::optional<Onward::Ray> Onward::intoLobe(const LobeNumbers& numbers) c
   if (!(dot(drawn->toLight, at_.normal) < 0) && at_.isAstray(drawn->toLight)) return {};
   return intoLobe(*drawn, drawn->weight * ((1 - at_.coat) / toLobe_));
 }
+
+/// The mirrored or refracted ray that carries more, if the surface sends any.
+std::optional<Onward::Ray> strongestOf(const Interaction& at);
 
 /// Two draws of a sampler of its own.
 inline auto lobeNumbers(Sampler numbers) {

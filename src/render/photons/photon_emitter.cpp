@@ -101,7 +101,6 @@ std::optional<PhotonEmitter::Flight> PhotonEmitter::fromLamp(const PhotonSource&
   const Color power = whitted(*bsdf).emissive * (place->opacity * share / static_cast<Real>(source.count));
   const Ray ray = place->leave(direction);
   Flight flight{ray, tracer_.interfacesAt(ray.origin), {}, power};
-  flight.gathered = true;
   cast(flight);
   return flight;
 }
@@ -114,7 +113,6 @@ std::optional<PhotonEmitter::Flight> PhotonEmitter::fromSky(const PhotonSource& 
   const Vec3 start = startOfParallel(tracer_, aim->ray.origin, aim->ray.direction);
   const Color power = light * (aim->share / (sky.density * static_cast<Real>(source.count)));
   Flight flight{{start, aim->ray.direction}, tracer_.interfacesAt(start), {}, power, true, true};
-  flight.gathered = true;
   cast(flight);
   return flight;
 }

@@ -69,8 +69,8 @@ class PhotonEmitter {
     int bounces = 0, scatterings = 0;
     int panes = 0;           ///< panes of the bounces, on the way straight from a light of the scene
     bool straight = true;    ///< it has hit nothing but panes that bend nothing
-    bool asked = true;       ///< shadow rays bring it to media, if a light of the scene sent it
-    bool gathered = false;   ///< it is not what shadow rays bring
+    bool asked = true;       ///< rays to lights bring it to media
+    bool gathered = false;   ///< it is not what rays to lights bring
     bool scattered = false;  ///< by a surface, a body or a medium
     bool offSurface =
         false;  ///< a surface has sent it evenly on its way now, no mirror or lobe, light or medium

@@ -106,9 +106,8 @@ bool PhotonEmitter::crossMedia(Flight& f, LandedPhotons& landed) {
     const MediumWay::Place& place = way.places.front();
     const Vec3 point = f.ray.at(place.t);
     const Color power = arriving(f, point, place.t) * f.inside.passed(place.t);
-    const bool asked = f.light ? f.asked : f.bounces == 0 && f.scatterings == 0;
     const Color fluence = power * place.arrives;
-    if (!asked && isFinite(fluence)) landed.inMedia.push_back({point, f.ray.direction, {}, fluence});
+    if (!f.asked && isFinite(fluence)) landed.inMedia.push_back({point, f.ray.direction, {}, fluence});
     if (const auto where = placeByChance(way, power, chance())) {
       f.power = power * where->weight;
       const Real goes = std::min(1.0, maxComponent(f.power) / maxComponent(power));
@@ -184,11 +183,12 @@ bool PhotonEmitter::goOn(Flight& f, const Interaction& at, bool scattersIt, cons
   } else if (choice < mirrors + passes) {
     const auto refracted = at.through(*share);
     if (!refracted) return false;
-    f.gathered = f.gathered || !at.straight;
+    const bool asked = f.light ? tracer_.lightPasses(at.bsdf()) : tracer_.isPane(at.bsdf());
+    f.gathered = f.gathered || !at.straight || !asked;
     // Rays from the eye keep radiance over the square of the index (Veach 1997, section 5.2): so do photons.
     const Real ratio = at.ratio(*share);
     f.straight = f.straight && ratio == 1;
-    f.asked = f.asked && tracer_.lightPasses(at.bsdf());
+    f.asked = f.asked && asked;
     f.power *= through * (ratio * ratio * all / passes);
     there = at.behind();
     there.wavelength = share->nanometres;

@@ -20,6 +20,11 @@ bool isCover(const Term& term, const Color& before) {
   return covers && !term.scattered && term.value == before * -1;
 }
 
+/// Whether a pane lets light straight through.
+bool isPassage(const Term& term, const RayNode& node) {
+  return term.kind == Term::Kind::refraction && node.bsdf && whitted(*node.bsdf).passage == Passage::straight;
+}
+
 std::uint32_t at(const std::vector<std::uint32_t>& numbers, std::size_t i, std::uint32_t otherwise) {
   return i < numbers.size() ? numbers[i] : otherwise;
 }
@@ -85,7 +90,7 @@ void splitLight(const RayTree& tree, const PassFacts& facts, std::size_t groups,
         continue;
       }
       if (term.ray >= 0 && rayAt(tree, term.ray).kind != RayKind::shadow) {
-        const int more = term.kind == Term::Kind::hole ? 0 : 1;
+        const int more = term.kind == Term::Kind::hole || isPassage(term, node) ? 0 : 1;
         carried[static_cast<std::size_t>(term.ray)] = {weight * term.factor, carried[i].scattered + more};
         continue;
       }

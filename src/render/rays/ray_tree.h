@@ -132,6 +132,11 @@ struct ChanceTerm {
   std::optional<std::uint32_t> lamp{};
 };
 
+/// A direction of that density, which another strategy gives with the density `other`.
+inline ChanceTerm weighed(Real density, Real other) {
+  return {density, other, other > 0 ? density * density / (density * density + other * other) : 1};
+}
+
 /// Photons that were counted, and the radius of the disk in which they lie.
 struct PhotonTerm {
   std::size_t count = 0;
@@ -224,7 +229,7 @@ struct Ignored {
   bool shadowless = false;
 };
 
-/// A surface that a shadow ray went through.
+/// A surface that a ray to a light went through.
 struct Filter {
   std::uint32_t object = 0;
   std::uint64_t part = 0;

@@ -33,7 +33,9 @@ std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind, Interfaces& inside
   if (records()) begin(ray, kind, kInfinity, inside.wavelength);
   auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
   passedShadowless_ = false;
-  if (found && (inside.nested() || world_.hasHoles() || (aim && world_.hasShadowless())))
+  if (aim) passedPanes_ = Color(1);
+  const bool passes = aim && (world_.hasShadowless() || world_.hasPanes());
+  if (found && (passes || inside.nested() || world_.hasHoles()))
     found = walk(ray, kind, *found, inside, chance, aim);
   if (!found || (kind == RayKind::camera && !world_.camera().sees(found->t))) {
     if (records()) {
@@ -110,7 +112,8 @@ std::optional<Found> Tracer::lookAt(const Ray& ray, RayKind kind, std::uint32_t 
 std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside, Real chance,
                                   std::optional<std::uint32_t> aim) {
   const auto goesOn = [&](const Found& at) {
-    return passesShadowless(at, aim) || ignored(ray, at, inside, chance);
+    return (aim && passesShadowless(at, *aim)) || ignored(ray, at, inside, chance) ||
+           (aim && passesPane(ray, at));
   };
   if (!goesOn(found)) return found;
   collect(ray, kInfinity, facesSeenBy(kind), statistics_);
@@ -120,8 +123,8 @@ std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Int
 }
 
 /// A ray that samples light passes what casts no shadow.
-bool Tracer::passesShadowless(const Found& found, std::optional<std::uint32_t> aim) {
-  if (!aim || found.object == *aim || world_.castsShadow(found)) return false;
+bool Tracer::passesShadowless(const Found& found, std::uint32_t aim) {
+  if (found.object == aim || world_.castsShadow(found)) return false;
   passedShadowless_ = true;
   if (records()) {
     Ignored& ignored = tree_->nodes.back().ignored.emplace_back();
@@ -130,6 +133,19 @@ bool Tracer::passesShadowless(const Found& found, std::optional<std::uint32_t> a
     ignored.t = found.t;
     ignored.shadowless = true;
   }
+  return true;
+}
+
+/// A ray that samples light passes panes, and is filtered.
+bool Tracer::passesPane(const Ray& ray, const Found& found) {
+  if (!world_.hasPanes() || world_.opaque(found.object)) return false;
+  const Hit hit(world_, ray, found);
+  const PlaceBsdf bsdf = world_.shade(hit);
+  if (!isPane(*bsdf)) return false;
+  const Color factor = passWeight(*bsdf, std::abs(dot(ray.direction, hit.surface.shading)));
+  passedPanes_ *= factor;
+  if (records())
+    tree_->nodes.back().filters.push_back({hit.object, hit.part, hit.t, factor, sharesOf(hit.materials)});
   return true;
 }
 

@@ -26,7 +26,7 @@ class Tracer {
   /// drawn from 0 up to 1, and counts as a whole; where that is 0 it is hit, and Hit::opacity says its share.
   ///
   /// A ray with an `aim` samples the light of that object, or of kSky: it passes all else that casts no
-  /// shadow.
+  /// shadow, and panes, which filter it.
   std::optional<Hit> cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance = 0,
                           std::optional<std::uint32_t> aim = {});
   static constexpr std::uint32_t kSky = 0xffffffffu;
@@ -45,6 +45,8 @@ class Tracer {
   /// The last shadow ray or ray with an aim passed something that casts no shadow. No ray that bounces brings
   /// that light, so this sample of it has the MIS weight 1.
   bool passedShadowless() const { return passedShadowless_; }
+  /// The transmittance of the panes that the last ray with an aim passed.
+  const Color& passedPanes() const { return passedPanes_; }
   /// The first hit of a ray, except for holes; counted as of that kind, and not recorded.
   std::optional<Found> look(const Ray& ray, RayKind kind) {
     count(kind);
@@ -90,7 +92,7 @@ class Tracer {
     int current_, last_;
   };
 
-  /// While it lives, shadow rays join two paths: a pane between their ends is a vertex of its own.
+  /// While it lives, rays to lights join two paths: a pane between their ends is a vertex of its own.
   class Joining {
    public:
     explicit Joining(Tracer& tracer) : tracer_(tracer) { tracer.joins_ = true; }
@@ -109,6 +111,12 @@ class Tracer {
     const WhittedTerms& terms = whitted(bsdf);
     return terms.transmits() && !gathers(bsdf) &&
            (terms.passage == Passage::straight || settings_.glassShadows != GlassShadows::black);
+  }
+  /// Whether rays with an aim pass such a surface. A path that comes straight through it from where it was
+  /// scattered meets the same light: the two are weighed.
+  bool isPane(const Bsdf& bsdf) const {
+    const WhittedTerms& terms = whitted(bsdf);
+    return terms.passage == Passage::straight && lightPasses(bsdf) && isBlack(terms.emissive);
   }
   /// The interior of the object that was hit, where its surface looks like `terms`.
   Filling filling(const Hit& hit, const WhittedTerms& terms) const {
@@ -169,7 +177,8 @@ class Tracer {
   std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside, Real chance,
                             std::optional<std::uint32_t> aim);
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside, Real& chance);
-  bool passesShadowless(const Found& found, std::optional<std::uint32_t> aim);
+  bool passesShadowless(const Found& found, std::uint32_t aim);
+  bool passesPane(const Ray& ray, const Found& found);
   /// Rays to lights pass the place. Those that join two paths do not: it is a vertex of its own.
   bool isShadowless(const Found& found) const { return !joins_ && !world_.castsShadow(found); }
   Interfaces startOn(const Hit& from, const Ray& ray, const Interfaces& inside);
@@ -196,6 +205,7 @@ class Tracer {
   bool midair_ = false;  // the shadow ray starts where no surface is
   bool joins_ = false;   // it ends at a vertex of another path
   bool passedShadowless_ = false;
+  Color passedPanes_{1};
   std::vector<Found> crossed_;                        // crossings of one ray; kept to save allocations
   std::optional<std::pair<Vec3, Interfaces>> start_;  // start at the last point that was asked for
 };

@@ -111,6 +111,9 @@ class World {
   bool hasShadowless() const { return hasShadowless_; }
   /// Whether at least half of the materials there cast a shadow.
   bool castsShadow(const Found& found) const { return !hasShadowless_ || shadows(materialMix(found)); }
+  bool castsShadow(const Hit& hit) const { return !hasShadowless_ || shadows(hit.materials); }
+  /// Some material lets light straight through, as thin glass does.
+  bool hasPanes() const { return hasPanes_; }
   /// The materials at the hit point: the material of the object, of the part of it, or those of the corners
   /// of its triangle.
   MaterialMix materialMix(const Found& found) const { return mixAt(instanceOf(found.object), found); }
@@ -484,7 +487,7 @@ class World {
 
   std::vector<Surface> surfaces_;  ///< surfaces of the scene's materials
   bool wantsFootprints_ = false, footprintsInUv_ = false, hasBumps_ = false, hasHoles_ = false,
-       hasTwoSided_ = false, hasShadowless_ = false;
+       hasTwoSided_ = false, hasShadowless_ = false, hasPanes_ = false;
   Rules rules_;
   std::vector<Light> lights_;
   std::vector<LightGeometry> lightGeometries_;

@@ -221,6 +221,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                                plain ? nullptr : std::make_shared<Material>(std::move(textured)), 0,
                                material.opacity, hasHoles, twoSided, material.castsShadow});
     world.hasShadowless_ |= !material.castsShadow;
+    world.hasPanes_ |= whitted(world.surfaces_.back().bsdf).passage == Passage::straight;
     world.hasTwoSided_ |= twoSided;
     world.hasHoles_ |= hasHoles;
     world.hasSubsurface_ |= material.model.is<Subsurface>();
