@@ -8,6 +8,7 @@
 #include "app/session/session.h"
 #include "base/files/file.h"
 #include "image/codecs/codec.h"
+#include "render/picture/passes.h"
 #include "support/folder.h"
 #include "support/paths.h"
 #include "support/random.h"
@@ -69,6 +70,46 @@ TEST(Denoising, EveryIntegratorThatTakesSamplesBecomesMoreExact) {
                  after = relativeError(session->picture(), truth);
     EXPECT_LT(after, before) << integrator;
     EXPECT_GT(after, 0) << integrator;
+  }
+}
+
+/// Checks below a sky, as the camera sees them behind that object.
+std::string checksBehind(const std::string& object) {
+  return R"(SBT-raytracer 1.1
+settings { integrator = path; depth = 6; width = 48; height = 48; sampling = sobol; }
+camera { position = (0, 0, 4); viewdir = (0, 0, -1); updir = (0, 1, 0); fov = 0.6; }
+background { gradient = ((0.1, 0.1, 0.1), (1.5, 1.5, 1.5)); }
+material { name = "checks"; diffuse = checker { a = (0.8, 0.1, 0.1); b = (0.1, 0.1, 0.8); scale = (0.04, 0.04, 1); }; }
+)" + object;
+}
+
+TEST(Denoising, WhatIsSeenBehindMirrorsAndGlassKeepsItsTexture) {
+  const Folder folder;
+  const std::string file = folder / "behind.ray";
+  const char* const kWall = "translate(0, 0, -2, scale(8, 8, 1, square { material = \"checks\"; }))\n";
+  const char* const kBehindUs =
+      "translate(0, 0, 8, rotate(0, 1, 0, 3.14159265, scale(8, 8, 1, square { material = \"checks\"; })))\n";
+  const std::string body = "scale(6, 6, 1, square { material = { ";
+  const std::pair<const char*, std::string> scenes[] = {
+      {"nothing", kWall},
+      {"a pane", kWall + body + "model = thin_glass; }; })"},
+      {"glass", kWall + std::string("scale(6, 6, 0.5, box { material = { transmissive = (0.9, 0.9, 0.9); "
+                                    "specular = (0.3, 0.3, 0.3); index = 1.5; }; })")},
+      {"a mirror", kBehindUs + body + "reflective = (0.9, 0.9, 0.9); }; })"}};
+  for (const auto& [name, scene] : scenes) {
+    SCOPED_TRACE(name);
+    writeFile(file, checksBehind(scene));
+    const auto with = [&](const char* spp) {
+      return rendered(file, {{"spp", spp, {}}, {"denoise", "on", {}}});
+    };
+    const Picture truth = with(kSanitized ? "64" : "1024")->film().picture();
+    const auto session = with("8");
+    const double before = relativeError(session->film().picture(), truth),
+                 after = relativeError(session->picture(), truth);
+    EXPECT_LT(after, 0.5 * before);
+    const Picture albedo =
+        session->film().layer(static_cast<std::size_t>(layerOf(session->settings(), "guide albedo")));
+    EXPECT_NEAR(albedo.at(24, 24).r + albedo.at(24, 24).b, 0.8, 0.15) << "one check, or the mean of two";
   }
 }
 

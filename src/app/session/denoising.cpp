@@ -24,7 +24,7 @@ std::optional<Picture> denoised(const Film& film, const Settings& settings, Job&
     return film.layer(static_cast<std::size_t>(layerOf(settings, name)));
   };
   Picture result =
-      withoutNoise(halves, {layer("albedo"), layer("normal"), layer("nearness")}, settings.threads, job);
+      withoutNoise(halves, {layer("guide albedo"), layer("guide normal"), layer("guide nearness")}, settings.threads, job);
   if (job.cancel) return {};
   const Picture plain = film.picture();
   for (std::size_t i = 0; i < result.pixels.size(); ++i)

@@ -2,7 +2,7 @@
 //
 // How alike two pixels are is judged twice, and the stricter one counts: by the colours of the patches around
 // them, against the noise that is known of both (non-local means with variances: Rousselle, Knaus and
-// Zwicker, Adaptive Rendering with Non-Local Means Filtering, 2012), and by what their first surfaces are
+// Zwicker, Adaptive Rendering with Non-Local Means Filtering, 2012), and by the surfaces that they show
 // (Rousselle, Manzi and Zwicker, Robust Denoising using Feature and Color Information, 2013). One half of the
 // samples says how the other is averaged, and the other way round, so that noise does not choose what it is
 // averaged with. We differ: features are measured against their slope alone; what is averaged is light over
@@ -16,7 +16,7 @@
 
 namespace trace {
 
-/// The guides of denoising: features of the first surfaces, on the average of a pixel's samples.
+/// The guides of denoising: features of the surfaces that a pixel shows, on the average of its samples.
 struct NoiseGuides {
   Picture albedo, normal;
   Picture nearness;  ///< 1 / depth; 0 where nothing is hit

@@ -168,8 +168,13 @@ Picture varianceShown(const Picture& values, const Settings& settings) {
   return changeShown(mapped(values, [](const Color& c) { return Color(std::sqrt(c.r)); }), settings);
 }
 
+// --- guides of denoising ---
+
+Color albedoGuide(const PassPlace& at) { return albedoValue(at) * at.passes; }
 /// 1 / depth has a mean where some samples hit nothing.
-Color nearnessValue(const PassPlace& at) { return Color(1 / depthValue(at).r); }
+Color nearnessGuide(const PassPlace& at) {
+  return Color(1 / (at.before > 0 ? at.before + at.hit.t : depthValue(at).r));
+}
 
 constexpr Color kNowhere(kInfinity);
 constexpr std::array kPasses{
@@ -210,9 +215,14 @@ constexpr std::array kPasses{
             Film::Keep::mean, Color(0), Color(0), nullptr, varianceShown},
 };
 
-/// The other guides of denoising.
-constexpr PassRow kNearness{Pass::depth, "nearness",    "",        Film::Keep::mean, Color(0),
-                            Color(0),    nearnessValue, plainShown};
+constexpr std::array kGuides{
+    PassRow{Pass::albedo, "guide albedo", "", Film::Keep::mean, Color(0), Color(0), albedoGuide, plainShown,
+            true},
+    PassRow{Pass::normal, "guide normal", "", Film::Keep::mean, Color(0), Color(0), normalValue, normalShown,
+            true},
+    PassRow{Pass::depth, "guide nearness", "", Film::Keep::mean, Color(0), Color(0), nearnessGuide,
+            plainShown, true},
+};
 
 }  // namespace
 
@@ -230,11 +240,10 @@ std::vector<const PassRow*> passesOf(const Settings& settings) {
 
 std::vector<const PassRow*> layersOf(const Settings& settings) {
   std::vector<const PassRow*> rows;
-  for (const PassRow& row : kPasses) {
-    const bool guides = settings.denoise && (row.pass == Pass::albedo || row.pass == Pass::normal);
-    if (row.value && (guides || settings.passes.has(row.pass))) rows.push_back(&row);
-  }
-  if (settings.denoise) rows.push_back(&kNearness);
+  for (const PassRow& row : kPasses)
+    if (row.value && settings.passes.has(row.pass)) rows.push_back(&row);
+  for (const PassRow& row : kGuides)
+    if (settings.denoise) rows.push_back(&row);
   return rows;
 }
 

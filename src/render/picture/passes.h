@@ -20,6 +20,8 @@ struct PassPlace {
   const Sampler& sampler;
   const PassFacts* facts = nullptr;  ///< facts of its scene; null where a render has none
   Size size{};                       ///< size of the picture
+  Color passes{1};                   ///< what mirrors and glass before it leave of its light
+  Real before = 0;                   ///< the distance to the last of these
 };
 
 struct PassRow {
@@ -35,6 +37,8 @@ struct PassRow {
   Color (*value)(const PassPlace&);
   /// The pass for the eye: values from 0 to 1 from raw ones.
   Picture (*shown)(const Picture& values, const Settings&);
+  /// The value is that of what is seen behind mirrors and glass (seen_behind.h): no pass, but a guide.
+  bool behind = false;
 };
 
 std::span<const PassRow> passRows();

@@ -16,6 +16,7 @@
 #include "render/integrators/make_integrator.h"
 #include "render/picture/light_split.h"
 #include "render/picture/passes.h"
+#include "render/picture/seen_behind.h"
 #include "render/rays/fog.h"
 #include "render/samples/pixel.h"
 
@@ -71,6 +72,7 @@ class TileRenderer {
     }
     if (light_.direct >= 0 || light_.indirect >= 0)
       splitter_.emplace(moments, settings, Size{film.width(), film.height()}, &tree_);
+    guides_ = std::any_of(passes_.begin(), passes_.end(), [](const PassRow* row) { return row->behind; });
     hasLayers_ = !passes_.empty() || light_.end > 0;
     if (chains_) chainTracer_.emplace(chains_->tracer());
     throws_ = film.takesSplats() && !chains_;
@@ -225,11 +227,18 @@ class TileRenderer {
     if (splitter_)  // first: rays of passes would be recorded too
       splitLight(tree_, *moment.facts, groups_, split_);
     const bool tooNear = !camera.hit && tracer.tooNear(camera.ray);
-    for (std::size_t i = 0; i < passes_.size(); ++i)
-      layers[i].push_back(camera.hit ? passes_[i]->value({camera, *camera.hit, tracer, sampler, moment.facts,
-                                                          Size{film_.width(), film_.height()}})
-                          : tooNear  ? passes_[i]->tooNear
-                                     : passes_[i]->background);
+    const Size size{film_.width(), film_.height()};
+    const auto behind = guides_ && camera.hit ? seenBehind(tracer, camera, sampler) : std::nullopt;
+    for (std::size_t i = 0; i < passes_.size(); ++i) {
+      const PassRow& row = *passes_[i];
+      const auto value = [&](const CameraRay& seen, const Color& passes, Real before) {
+        return seen.hit  ? row.value({seen, *seen.hit, tracer, sampler, moment.facts, size, passes, before})
+               : tooNear ? row.tooNear
+                         : row.background;
+      };
+      layers[i].push_back(behind && row.behind ? value(behind->last, behind->passes, behind->distance)
+                                               : value(camera, Color(1), 0));
+    }
     if (light_.alpha >= 0)
       layers[static_cast<std::size_t>(light_.alpha)].push_back(
           Color(alphaOf(camera, moment.integrator->weighsHoles(), tracer)));
@@ -251,6 +260,7 @@ class TileRenderer {
   PixelTracer tracer_;
   const Tile area_;
   std::vector<const PassRow*> passes_;
+  bool guides_ = false;  ///< some are of what is seen behind mirrors and glass
   const Film& film_;
   const Metropolis* chains_;
   const std::span<const Moment> moments_;
