@@ -231,6 +231,17 @@ TEST(Film, SplatsMayBeVeryBrightOrVeryDark) {
   }
 }
 
+TEST(PixelSum, IsSmallAsLongAsNoWeightIsBelowZero) {
+  EXPECT_LE(sizeof(PixelSum), 56u);
+  PixelSum sum;
+  sum.add(Color(0.5), 1), sum.add(Color(1), -0.25);
+  const PixelSum copy = sum;
+  sum.add(Color(3), -0.7);  // those below 0 nearly undo the others now, so they do not count
+  EXPECT_NEAR(copy.mean().g, 0.25 / 0.75, 1e-12);
+  EXPECT_NEAR(sum.mean().g, 0.5, 1e-12);
+  EXPECT_NEAR(sum.colors().without(copy.colors()).mean().g, 3, 1e-12);
+}
+
 TEST(PixelSum, SettlesWhereItsErrorIsSmall) {
   PixelSum even, noisy, bright;
   for (int k = 0; k < 16; ++k) {

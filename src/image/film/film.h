@@ -44,45 +44,68 @@ std::vector<Wave> wavesOf(int samples, int first = 0);
 /// do not count.
 class WeightedMean {
  public:
+  WeightedMean() = default;
+  WeightedMean(const WeightedMean& other)
+      : sum_(other.sum_),
+        weights_(other.weights_),
+        above_(other.above_ ? std::make_unique<Above>(*other.above_) : nullptr) {}
+  WeightedMean(WeightedMean&&) = default;
+  WeightedMean& operator=(WeightedMean other) {
+    sum_ = other.sum_;
+    weights_ = other.weights_;
+    above_ = std::move(other.above_);
+    return *this;
+  }
+  ~WeightedMean() = default;
+
   void add(const Color& color, double weight) {
+    if (weight < 0 && !above_) above_ = std::make_unique<Above>(above());
     sum_ += color * weight;
     weights_ += weight;
-    if (weight > 0) {
-      above_ += color * weight;
-      weightsAbove_ += weight;
+    if (above_ && weight > 0) {
+      above_->sum += color * weight;
+      above_->weights += weight;
     }
   }
   Color mean() const {
     if (usesAll()) return weights_ != 0 ? sum_ / weights_ : Color(0);
-    return above_ / weightsAbove_;
+    return above_->sum / above_->weights;
   }
   /// The mean of another value of the same samples: of the sum of weight times value, and the part of it with
   /// weights below 0. Values that sum to the colour have means that sum to mean().
   Color meanOf(const Color& sum, const Color& below) const {
     if (usesAll()) return weights_ != 0 ? sum / weights_ : Color(0);
-    return (sum + below * -1) / weightsAbove_;
+    return (sum + below * -1) / above_->weights;
   }
   /// Without those that are among them.
   WeightedMean without(const WeightedMean& part) const {
-    WeightedMean rest = *this;
-    rest.sum_ += part.sum_ * -1;
-    rest.above_ += part.above_ * -1;
-    rest.weights_ -= part.weights_;
-    rest.weightsAbove_ -= part.weightsAbove_;
+    WeightedMean rest;
+    rest.sum_ = sum_ + part.sum_ * -1;
+    rest.weights_ = weights_ - part.weights_;
+    const Above all = above(), left = part.above();
+    if (above_ || part.above_)
+      rest.above_ = std::make_unique<Above>(Above{all.sum + left.sum * -1, all.weights - left.weights});
     return rest;
   }
   /// The weight of a sample in it, one of `count`: 1 if all count alike.
   double counts(double weight, double count) const {
     if (usesAll()) return weights_ != 0 ? weight * count / weights_ : 0;
-    return weight > 0 ? weight * count / weightsAbove_ : 0;
+    return weight > 0 ? weight * count / above_->weights : 0;
   }
 
  private:
   friend class FilmState;
-  bool usesAll() const { return weightsAbove_ == 0 || weights_ > 0.25 * weightsAbove_; }
+  /// Those of weights above 0.
+  struct Above {
+    Color sum;
+    double weights;
+  };
+  Above above() const { return above_ ? *above_ : Above{sum_, weights_}; }
+  bool usesAll() const { return !above_ || above_->weights == 0 || weights_ > 0.25 * above_->weights; }
 
-  Color sum_, above_;
-  double weights_ = 0, weightsAbove_ = 0;
+  Color sum_;
+  double weights_ = 0;
+  std::unique_ptr<Above> above_{};  ///< null as long as these are all
 };
 
 /// The state of a pixel: its colour so far, and how much that may be off.

@@ -67,13 +67,12 @@ class FilmState {
   }
 
   static void put(Writer& to, const WeightedMean& mean) {
-    const bool alike = mean.sum_ == mean.above_ && mean.weights_ == mean.weightsAbove_;  // nearly always
+    const bool alike = !mean.above_;  // nearly always
     to.put(static_cast<std::uint8_t>(alike));
     to.put(mean.sum_);
     to.put(mean.weights_);
     if (alike) return;
-    to.put(mean.above_);
-    to.put(mean.weightsAbove_);
+    to.put(*mean.above_);
   }
 
   static void take(Reader& from, PixelSum& pixel) {
@@ -96,8 +95,7 @@ class FilmState {
     if (alike > 1) throw std::runtime_error("a mean is neither of one kind nor of the other");
     mean.sum_ = from.take<Color>();
     mean.weights_ = from.take<double>();
-    mean.above_ = alike ? mean.sum_ : from.take<Color>();
-    mean.weightsAbove_ = alike ? mean.weights_ : from.take<double>();
+    mean.above_ = alike ? nullptr : std::make_unique<WeightedMean::Above>(from.take<WeightedMean::Above>());
   }
 
   static void put(Writer& to, const Film::Layer& layer, std::size_t pixel) {
