@@ -13,6 +13,7 @@
 #include "cli/commands/commands.h"
 #include "cli/flags.h"
 #include "scene/option_words.h"
+#include "scene/quality.h"
 
 namespace trace::cli {
 namespace {

@@ -249,7 +249,9 @@ std::span<const Flag> flags() {
              a.resume = static_cast<Resume>(pick("resume", value, kNames));
            }},
       Flag{"quick", 0, Takes::nothing, "", "", kOfScenes, true,
-           "a quick preview: 100 pixels wide, the whole picture, depth 2, spp 1; other flags override these",
+           "a quick preview: 100 pixels wide, the whole picture, depth 2, spp 1, few photons; other flags "
+           "override "
+           "these",
            [](Arguments& a, std::string_view) { a.quick = true; }},
       Flag{"enable", 0, Takes::value, "NAME", "", kOfScenes, true,
            "switch an extra on, with a useful value (ray features lists them)", enable},
@@ -519,17 +521,6 @@ std::string_view enabledValue(const Option& option) {
   for (const auto& [name, value] : kUseful)
     if (name == option.name) return value;
   return {};
-}
-
-std::span<const Choice> quickChoices() {
-  static const std::array<Choice, 7> kChoices{{{"width", "100", {}},
-                                               {"height", "0", {}},
-                                               {"region", "0,0,0,0", {}},
-                                               {"depth", "2", {}},
-                                               {"spp", "1", {}},
-                                               {"subdivide", "0", {}},
-                                               {"denoise", "off", {}}}};
-  return kChoices;
 }
 
 }  // namespace trace::cli

@@ -35,7 +35,4 @@ bool takesOption(Verb command, const Option& option);
 /// the option cannot be enabled.
 std::string_view enabledValue(const Option& option);
 
-/// The choices of --quick, before the flags that are given by name.
-std::span<const Choice> quickChoices();
-
 }  // namespace trace::cli

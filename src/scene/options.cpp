@@ -657,6 +657,16 @@ const std::array kOptions{
          .most = 1000,
          .unit = "maps",
          .integrators = integratorsWith(Trait::photons)}),
+    row<&Settings::photonShare>(
+        {.name = "photon-share",
+         .group = "Tracing",
+         .help =
+             "part of the photons of --photons and --caustics that is emitted; a small part is enough for a "
+             "preview, and --quick takes 0.05",
+         .source = "docs/photons.md",
+         .least = 0.001,
+         .most = 1,
+         .integrators = kWhitted | integratorsWith(Trait::photons)}),
     row<&Settings::finalGather>({.name = "final-gather",
                                  .group = "Tracing",
                                  .help = "estimate indirect light by rays whose hit points use the photon "

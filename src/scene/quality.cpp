@@ -105,6 +105,18 @@ std::span<const Choice> choicesOf(Quality quality) {
   return kAll[static_cast<std::size_t>(quality)];
 }
 
+std::span<const Choice> quickChoices() {
+  static const std::array<Choice, 8> kChoices{{{"width", "100", {}},
+                                               {"height", "0", {}},
+                                               {"region", "0,0,0,0", {}},
+                                               {"depth", "2", {}},
+                                               {"spp", "1", {}},
+                                               {"subdivide", "0", {}},
+                                               {"photon-share", "0.05", {}},
+                                               {"denoise", "off", {}}}};
+  return kChoices;
+}
+
 bool setsOption(std::string_view quality, std::string_view option) {
   for (std::size_t i = 0; i < kQualities.size(); ++i) {
     if (kQualities[i].name != quality) continue;

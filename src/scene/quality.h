@@ -15,6 +15,9 @@ namespace trace {
 /// The choices that a quality stands for, the integrator apart; none of Quality::none.
 std::span<const Choice> choicesOf(Quality quality);
 
+/// Those of the flag --quick: a small, rough preview.
+std::span<const Choice> quickChoices();
+
 /// Whether the quality of that name gives the option its value.
 bool setsOption(std::string_view quality, std::string_view option);
 

@@ -156,6 +156,7 @@ struct Settings {
   Real occlusionReach = 0;
   int photons = 200000;
   int photonPasses = 8;
+  Real photonShare = 1;
   bool finalGather = false;
   Real irradianceCache = 0;
   int irradianceRays = 400;

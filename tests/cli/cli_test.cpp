@@ -446,6 +446,10 @@ TEST_F(Cli, QuickOverridesTheScene) {
   EXPECT_EQ(stats["height"], 80);
   EXPECT_EQ(stats["rays"]["camera"], 100 * 80);
   EXPECT_EQ(stats["settings"]["depth"], "2");
+  for (const char* integrator : {"whitted", "path", "photon", "normals"}) {
+    const Run quiet = run({"set.ray", "--quick", "--integrator", integrator});
+    EXPECT_FALSE(contains(quiet.err, "changes nothing")) << quiet.err;
+  }
 }
 
 TEST_F(Cli, Environment) {

@@ -67,6 +67,23 @@ TEST(Caustics, AMirrorThrowsASunOnAWall) {
   EXPECT_NEAR(seen(scene, {-2, 3, 0}, {3, 3, 0}, none) / std::sqrt(0.5), 1, 1e-6);
 }
 
+TEST(Caustics, APartOfThePhotonsIsAsIfThatManyWereAskedFor) {
+  Scene scene;
+  addObject(scene, Square{}, Affine::translation({0, 0, -2}) * Affine::scaling({4, 4, 1}), white());
+  addObject(scene, Cube{}, Affine::scaling({1, 1, 0.3}), glass(0.1));
+  scene.lights.push_back({PointLight{.position = {0.2, 0.3, 3}, .color = Color(1)}, {}});
+  scene.camera.position = {0, 4, 3}, scene.camera.viewdir = {0, -4, -5};
+  for (const IntegratorKind kind : {IntegratorKind::whitted, IntegratorKind::photon}) {
+    Settings few = causticSettings(500), part = causticSettings(2000);
+    few.integrator = part.integrator = kind;
+    few.photons = 1000, part.photons = 4000;
+    part.photonShare = 0.25;
+    EXPECT_EQ(picture(scene, part), picture(scene, few));
+    part.photonShare = 1;
+    EXPECT_NE(picture(scene, part), picture(scene, few));
+  }
+}
+
 TEST(Caustics, AMirrorThrowsALampAsItsImageWould) {
   Scene scene;
   Phong mirror;

@@ -151,11 +151,13 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
   for (const Option& option : options()) {
     const bool ofScene = std::any_of(scene.choices.begin(), scene.choices.end(),
                                      [&](const Choice& choice) { return choice.option == option.name; });
-    const std::span<const Choice> chosen = choicesOf(s.quality);
-    const bool ofQuality = std::any_of(chosen.begin(), chosen.end(), [&](const Choice& choice) {
-      return choice.option == option.name && choice.value == option.get(s);
-    });
-    const bool told = !ofQuality && (ofScene ? option.extra && integrator == meant : true);
+    const auto isOf = [&](std::span<const Choice> chosen) {
+      return std::any_of(chosen.begin(), chosen.end(), [&](const Choice& choice) {
+        return choice.option == option.name && choice.value == option.get(s);
+      });
+    };
+    const bool ofBundle = isOf(choicesOf(s.quality)) || isOf(quickChoices());
+    const bool told = !ofBundle && (ofScene ? option.extra && integrator == meant : true);
     if (told && !option.concerns(s) && option.get(s) != option.get({}))
       warn("--" + std::string(option.name) + " changes nothing: it concerns " +
            namesOfIntegrators(option.integrators) + ", and --integrator is " + integrator);

@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 #include "image/srgb.h"
 #include "render/photons/photon_emitter.h"
 
 namespace trace {
 namespace {
+
+/// As many of that many photons as are emitted.
+int emitted(int photons, const Settings& settings) {
+  return static_cast<int>(std::ceil(photons * settings.photonShare));
+}
 
 /// All that sends photons to the targets, each with its part of them: by what it sends, and some in any case,
 /// for a light may shine past the middle of a target.
@@ -111,7 +117,8 @@ Real causticReach(const World& world, const std::vector<PhotonTarget>& targets) 
 GatheredCaustics gathered(const World& world, const Settings& settings, const Lamps* lamps, int side,
                           Job& job, int pass) {
   const std::vector<PhotonTarget> targets = photonTargetsOf(world, settings, lamps);
-  const int photons = settings.caustics > 0 || !lamps ? settings.caustics : settings.photons;
+  const int photons =
+      emitted(settings.caustics > 0 || !lamps ? settings.caustics : settings.photons, settings);
   if (photons == 0 || targets.empty()) return {};
   const Real widest = settings.causticRadius > 0 ? settings.causticRadius : causticReach(world, targets);
   const Real reach = widest * std::sqrt(areaOfPass(pass));
@@ -146,9 +153,9 @@ GlobalMaps globalMaps(const World& world, const Settings& settings, const Lamps&
   const std::vector<PhotonTarget> everything{{box.center(), length(box.size()) / 2}};
   constexpr Real kReach = 0.1;  // relative to the scene's size
   const Real reach = kReach * length(box.size()), area = areaOfPass(pass);
-  LandedPhotons landed =
-      landedPhotons(world, settings, &lamps, everything,
-                    gathersFinally(settings) ? Kept::all : Kept::scattered, 0, settings.photons, job, pass);
+  LandedPhotons landed = landedPhotons(world, settings, &lamps, everything,
+                                       gathersFinally(settings) ? Kept::all : Kept::scattered, 0,
+                                       emitted(settings.photons, settings), job, pass);
   return {{std::move(landed.photons), reach * std::sqrt(area), kFlatness, nearestOfPass(pass)},
           {std::move(landed.inMedia), reach * std::cbrt(area), 1, nearestOfPass(pass)}};
 }
