@@ -268,5 +268,23 @@ TEST_F(Lessons, TheHowTosWorkWhenPasted) {
   }
 }
 
+TEST_F(Lessons, ThePageOfLintShowsWhatLintPrints) {
+  const std::string corpus = "tests/corpus/lint", page = readFile(kRoot / "docs/lint.md");
+  fs::create_directories(path(corpus));
+  fs::copy(kRoot / corpus, path(corpus), fs::copy_options::recursive);
+  std::size_t shown = 0;
+  for (const auto& entry : fs::directory_iterator(kRoot / corpus)) {
+    const std::string scene = corpus + "/" + entry.path().filename().string();
+    if (page.find(scene + ":") == page.npos) continue;
+    ++shown;
+    std::istringstream printed(run({"lint", scene}).out);
+    for (std::string line; std::getline(printed, line);)
+      if (line.find("warning: ") != line.npos || line.find("hint: ") != line.npos) {
+        EXPECT_NE(page.find("    " + line + "\n"), page.npos) << line;
+      }
+  }
+  EXPECT_GT(shown, 20u);
+}
+
 }  // namespace
 }  // namespace trace::test
