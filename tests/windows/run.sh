@@ -115,7 +115,8 @@ compareScenes() {
   echo "$same of ${#scenes[@]} pictures have the same bytes"
 }
 
-# The window opens on a display of its own, shows a scene and the rays of a pixel, and saves the picture that the program renders.
+# In a Wine of its own, since the other parts start one that has no display. The window opens, shows a scene and the rays of a
+# pixel, and saves the picture that the program renders.
 tryStudio() {
   local folder="$work/studio" scene="$root/scenes/glass.ray"
   command -v xvfb-run >/dev/null || { echo "studio SKIPPED: there is no xvfb-run"; return; }
@@ -124,7 +125,7 @@ tryStudio() {
   cd "$folder"
   printf '%s\n' "open $scene" 'set width 160' wait 'save saved.png' 'pixel 80 60' rays 'screenshot window.png' >steps.txt
   "$ray" render "$scene" -w 160 -o linux.png --quiet --resume=never
-  if ! xvfb-run -a -s '-screen 0 1280x800x24' wine "$build/bin/ray-studio.exe" --script steps.txt >log 2>&1 </dev/null; then
+  if ! WINEPREFIX="$work/prefix-window" xvfb-run -a -s '-screen 0 1280x800x24' wine "$build/bin/ray-studio.exe" --script steps.txt >log 2>&1 </dev/null; then
     failed+=(studio)
     echo "studio FAILED, see $folder/log"
     return
