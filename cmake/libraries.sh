@@ -2,7 +2,7 @@
 # Fills a folder with the libraries of Trace for a platform that Debian has no packages for: compiles Debian's sources of
 # them, and links the headers of those that are only headers.
 #
-#   libraries.sh windows|web FOLDER     an empty or new folder; takes five to ten minutes on two cores
+#   libraries.sh windows|web FOLDER     takes five to ten minutes on two cores; what is there is not compiled again
 set -euo pipefail
 
 platform="$1"
@@ -31,9 +31,10 @@ fetchSources() {
        -o "Dir::State::Lists=$sources/lists" -o "Dir::Cache=$sources/cache" -o APT::Sandbox::User=root)
   "${apt[@]}" update
   "${apt[@]}" --download-only source "$@"
-  local description
+  local description name
   for description in *.dsc; do
-    dpkg-source --no-check -x "$description"
+    name="$(tr _ - <<<"${description%-*}")"  # its folder: imath-3.1.6 of imath_3.1.6-1.dsc
+    [[ -d "$name" ]] || dpkg-source --no-check -x "$description"
   done
 }
 
@@ -95,7 +96,7 @@ headers CLI nlohmann stb tiny_obj_loader.h tiny_gltf.h
 package CLI11 CLI11::CLI11 2
 package nlohmann_json nlohmann_json::nlohmann_json 3
 if [[ "$platform" == windows ]]; then
-  fetchSources imath openexr libwebp draco meshoptimizer
+  fetchSources imath openexr libwebp draco meshoptimizer glfw3 imgui  # the last is compiled with the studio
   describe zlib 1.2 -l:libz.a  # from Debian's libz-mingw-w64-dev
 else
   fetchSources zlib imath openexr libwebp draco meshoptimizer imgui  # the last is compiled with the studio
@@ -109,6 +110,7 @@ compile imath -DPYTHON=OFF
 compile openexr -DOPENEXR_BUILD_TOOLS=OFF -DOPENEXR_INSTALL_EXAMPLES=OFF -DOPENEXR_INSTALL_TOOLS=OFF
 compile libwebp -DWEBP_BUILD_{ANIM_UTILS,CWEBP,DWEBP,GIF2WEBP,IMG2WEBP,VWEBP,WEBPINFO,WEBPMUX,EXTRAS}=OFF
 compile draco -DDRACO_TESTS=OFF -DDRACO_JS_GLUE=OFF
+[[ "$platform" != windows ]] || compile glfw3 -DGLFW_BUILD_{EXAMPLES,TESTS,DOCS}=OFF
 if [[ "$platform" == windows && -d /usr/src/googletest ]]; then
   ln -sfn /usr/src/googletest "$sources/googletest-0"
   compile googletest -DBUILD_GMOCK=OFF

@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
-# Packs the program for Windows into one archive: a folder with ray.exe, which needs nothing else, the scenes, the pages and
-# the licences of the libraries in it.
+# Packs the programs for Windows into one archive: a folder with ray.exe and ray-studio.exe, which need nothing else, the scenes and
+# the licences of the libraries in them.
 # Usage: windows.sh BUILD_FOLDER OUT_FOLDER; prints the archive's name.
 set -euo pipefail
 
 build="$1" out="$(cd -- "$2" && pwd -P)"
 root="$(CDPATH='' cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.." && pwd -P)"
 fail() { echo "windows: $*" >&2; exit 1; }
-[[ -x "$build/bin/ray.exe" ]] || fail "there is no $build/bin/ray.exe"
+for program in ray ray-studio; do
+  [[ -x "$build/bin/$program.exe" ]] || fail "there is no $build/bin/$program.exe"
+done
 version="$(sed -n 's/^CMAKE_PROJECT_VERSION:STATIC=//p' "$build/CMakeCache.txt")"
 name="trace-ray-$version-windows-x86_64"
 stage="$(mktemp -d)"
@@ -16,23 +18,25 @@ trap 'rm -rf -- "$stage"' EXIT
 umask 022
 folder="$stage/$name"
 mkdir -p "$folder/licences"
-x86_64-w64-mingw32-strip -o "$folder/ray.exe" "$build/bin/ray.exe"
+for program in ray ray-studio; do
+  x86_64-w64-mingw32-strip -o "$folder/$program.exe" "$build/bin/$program.exe"
+done
 cp -r -- "$root/scenes" "$folder/scenes"
 cp -- "$root/LICENSE" "$folder/LICENSE.txt"
 sed 's/$/\r/' >"$folder/README.txt" <<'END'
 Trace, the ray tracer you can see inside
 
-Double-click ray.exe: it renders a first scene, scene.ray, to scene.png in this folder.
+Double-click ray-studio.exe, or ray.exe: a window opens. Choose a scene, and click a pixel to see its rays.
 Drag a scene of the folder "scenes" onto ray.exe: its picture appears beside it.
-Edit scene.ray with a text editor, and drag it onto ray.exe to see the change.
+Edit a scene with a text editor, and drag it onto ray.exe to see the change.
 
 In a terminal, in this folder:
 
     .\ray.exe scenes\glass.ray -o glass.png
     .\ray.exe help
 
-This build was tried under Wine. The window, ray-studio, and programs of students in a sandbox (ray grade --run) are
-for Linux only. The folder "licences" holds the licences of the libraries in ray.exe.
+These programs were tried under Wine. The window needs OpenGL 3.3. Programs of students in a sandbox (ray grade --run) are for
+Linux only. The folder "licences" holds the licences of the libraries in the programs.
 END
 licence() {  # PACKAGE of Debian, or a file of its source
   local file="/usr/share/doc/$1/copyright"
@@ -40,7 +44,7 @@ licence() {  # PACKAGE of Debian, or a file of its source
   [[ -f "$file" ]] || fail "no licence of $1"
   cp -- "$file" "$folder/licences/$1.txt"
 }
-for package in openexr imath libwebp draco meshoptimizer libz-mingw-w64-dev mingw-w64-x86-64-dev gcc-mingw-w64-x86-64-posix-runtime \
+for package in openexr imath libwebp draco meshoptimizer imgui glfw3 libz-mingw-w64-dev mingw-w64-x86-64-dev gcc-mingw-w64-x86-64-posix-runtime \
   libcli11-dev libstb-dev nlohmann-json3-dev libtinyobjloader-dev libtinygltf-dev; do
   licence "$package"
 done

@@ -167,8 +167,7 @@ class Parser {
         {"--out", "did you mean \"--output\"?"},
         {"--outfile", "did you mean \"--output\"?"},
         {"--verbose", "--log-level debug says more, --quiet less"},
-        {"--debug", "--log-level debug says more"},
-        {"--alpha", "pictures have no alpha; --passes writes what a compositor needs, such as depth"}};
+        {"--debug", "--log-level debug says more"}};
     for (const auto& [other, meant] : kOthers)
       if (name == other) hint = meant;
     for (const Flag& flag : flags())

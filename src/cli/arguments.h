@@ -36,6 +36,7 @@ enum class Verb {
   expand,
   stereogram,
   split,
+  farm,
   merge,
   features,
   selftest,
@@ -68,8 +69,9 @@ struct Arguments {
   StatsStyle stats = StatsStyle::none;
   std::vector<int> frames;  ///< --frames, in order; empty for one picture
   double framesPerSecond = 24;
-  int part = 0;   ///< render: K of --part K/N, from 1 on; 0 for the whole picture
-  int parts = 0;  ///< render: N of --part K/N; split: --parts; 0 if neither is given
+  int part = 0;        ///< render: K of --part K/N, from 1 on; 0 for the whole picture
+  int parts = 0;       ///< render: N of --part K/N; split and farm: --parts; 0 if neither is given
+  std::string sbatch;  ///< farm: --sbatch, flags with blanks between; may be empty
   Resume resume = Resume::goOn;
   Conversion conversion;
   bool strict = false;

@@ -1,12 +1,10 @@
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
+#include "base/os/process.h"
 #include "studio/host.h"
 #include "studio/start_page.h"
+#include "studio/widgets/gl.h"
 
 namespace trace::studio::host {
 
@@ -48,9 +46,6 @@ void copyLink(const std::string&, const std::string&) {}
 void answerWith(std::function<std::string()>) {}
 bool isPage() { return false; }
 
-std::string examples() {
-  std::error_code unknown;
-  return examplesFolder(std::filesystem::read_symlink("/proc/self/exe", unknown).generic_string());
-}
+std::string examples() { return examplesFolder(os::programIn(os::ownFolder(), "ray-studio")); }
 
 }  // namespace trace::studio::host

@@ -1,7 +1,10 @@
 #include "studio/window.h"
 
-#define GLFW_INCLUDE_NONE  // widgets/gl.h has it
+#include "studio/widgets/gl.h"  // before GLFW
+// clang-format off
+#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+// clang-format on
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -15,7 +18,6 @@
 
 #include "base/error.h"
 #include "studio/host.h"
-#include "studio/widgets/gl.h"
 
 namespace trace::studio {
 
@@ -75,6 +77,7 @@ Window::Window(const std::string& title, int width, int height) : state_(std::ma
   state_->window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   if (!state_->window) failToOpen("cannot open a window");
   glfwMakeContextCurrent(state_->window);
+  loadGl();
   glfwSwapInterval(1);
   listen();
   ImGui::CreateContext();

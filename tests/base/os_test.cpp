@@ -25,6 +25,20 @@ TEST(OperatingSystem, KnowsTheProcess) {
   EXPECT_EQ(os::variable("TRACE_NOBODY_SETS_THIS"), "");
 }
 
+TEST(OperatingSystem, ProgramsAnswer) {
+  const std::string own = os::programIn(os::ownFolder(), "test_base");
+  const os::ProgramAnswer list = os::answerOf({own, "--gtest_list_tests", "--gtest_filter=*.ProgramsAns*"});
+  EXPECT_EQ(list.code, 0);
+  EXPECT_NE(list.text.find("ProgramsAnswer"), std::string::npos) << list.text;
+  EXPECT_EQ(list.text.find("KnowsMemory"), std::string::npos) << list.text;
+  const std::string odd =
+      os::answerOf({own, "--gtest_list_tests", "--gtest_filter=a 'b $HOME:*.ProgramsA*"}).text;
+  EXPECT_NE(odd.find("ProgramsAnswer"), std::string::npos) << "a word is cut or changed: " << odd;
+  const os::ProgramAnswer none = os::answerOf({"trace-nobody-has-this"});
+  EXPECT_NE(none.code, 0);
+  EXPECT_NE(none.text, "");
+}
+
 TEST(OperatingSystem, KnowsMemory) {
   EXPECT_GT(os::machineMemory(), os::peakMemory());
   EXPECT_GT(os::peakMemory(), std::uint64_t{100} << 10);

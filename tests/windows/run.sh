@@ -3,7 +3,7 @@
 # answers otherwise or a picture looks different.
 #
 #   run.sh BUILD RAY [PART...]    BUILD: the folder of the build for Windows; RAY: the program for Linux; PART: test_base and the
-#                                 other test programs, commands, scenes, functions; without one all but functions
+#                                 other test programs, commands, scenes, studio, functions; without one all but functions
 set -euo pipefail
 
 build="$(cd -- "$1" && pwd -P)" ray="$(readlink -f -- "$2")"
@@ -115,6 +115,27 @@ compareScenes() {
   echo "$same of ${#scenes[@]} pictures have the same bytes"
 }
 
+# In a Wine of its own, since the other parts start one that has no display. The window opens, shows a scene and the rays of a
+# pixel, and saves the picture that the program renders.
+tryStudio() {
+  local folder="$work/studio" scene="$root/scenes/glass.ray"
+  command -v xvfb-run >/dev/null || { echo "studio SKIPPED: there is no xvfb-run"; return; }
+  rm -rf -- "$folder"
+  mkdir -p "$folder"
+  cd "$folder"
+  printf '%s\n' "open $scene" 'set width 160' wait 'save saved.png' 'pixel 80 60' rays 'screenshot window.png' >steps.txt
+  "$ray" render "$scene" -w 160 -o linux.png --quiet --resume=never
+  if ! WINEPREFIX="$work/prefix-window" xvfb-run -a -s '-screen 0 1280x800x24' wine "$build/bin/ray-studio.exe" --script steps.txt >log 2>&1 </dev/null; then
+    failed+=(studio)
+    echo "studio FAILED, see $folder/log"
+    return
+  fi
+  "$ray" diff linux.png saved.png --tolerance 1 >diff.txt || failed+=("the studio's picture")
+  head -n 1 diff.txt
+  [[ "$(stat -c %s window.png)" -gt 20000 ]] || failed+=("the studio's window")
+  echo "studio: $folder/window.png shows the window"
+}
+
 compareFunctions() {
   cd "$work"
   g++ -O2 -std=c++20 -ffp-contract=off "$root/tests/windows/functions.cpp" -o functions
@@ -127,12 +148,13 @@ compareFunctions() {
 }
 
 if (($# == 0)); then
-  set -- $(cd "$build/bin" && ls test_*.exe | sed 's/\.exe$//') commands scenes
+  set -- $(cd "$build/bin" && ls test_*.exe | sed 's/\.exe$//') commands scenes studio
 fi
 for part in "$@"; do
   case "$part" in
     commands) compareCommands ;;
     scenes) compareScenes ;;
+    studio) tryStudio ;;
     functions) compareFunctions ;;
     *) runTests "$part" ;;
   esac

@@ -33,6 +33,21 @@ std::string variable(const char* name);
 std::string ownFolder();
 /// The path of a program in the folder, as the system spells programs.
 std::string programIn(const std::string& folder, const std::string& name);
+/// The text as one word of a POSIX shell, whatever its characters.
+inline std::string quotedForShell(std::string_view text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+/// How a program ended, and what it printed to its standard output and as messages.
+struct ProgramAnswer {
+  int code = 0;
+  std::string text;
+};
+/// Runs a program to its end: a path, or a name that the system looks for. One that cannot be started answers
+/// with a code that is not 0 and the reason.
+ProgramAnswer answerOf(const std::vector<std::string>& words);
 /// Replaces this program by another, with its arguments. Throws Error(Fault::io) if that fails.
 [[noreturn]] void becomeProgram(const std::vector<std::string>& words);
 

@@ -242,6 +242,11 @@ std::span<const Command> commands() {
       Command{Verb::split, "split", "SCENE --parts N",
               "divide a render among machines: a folder of jobs for make or Slurm", true, splitCommand,
               nullptr, "the folder of the parts; by default the scene's name with .parts, in this folder"},
+      Command{
+          Verb::farm, "farm", "SCENE --parts N [-o OUT]",
+          "render a picture by a cluster with Slurm: submit the parts, those that are lost again, and merge",
+          true, farmCommand, nullptr,
+          "the picture; by default the scene's name with .png, in this folder; its parts are beside it"},
       Command{Verb::merge, "merge", "FOLDER [-o OUT]",
               "put the parts of ray split together to the picture that one machine renders", true,
               mergeCommand, nullptr, "the picture; by default the scene's name with .png, in this folder"},

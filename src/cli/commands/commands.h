@@ -80,6 +80,7 @@ int formatCommand(const Arguments& arguments, const Console& console);
 int expandCommand(const Arguments& arguments, const Console& console);
 int stereogramCommand(const Arguments& arguments, const Console& console);
 int splitCommand(const Arguments& arguments, const Console& console);
+int farmCommand(const Arguments& arguments, const Console& console);
 int mergeCommand(const Arguments& arguments, const Console& console);
 int featuresCommand(const Arguments& arguments, const Console& console);
 int selftestCommand(const Arguments& arguments, const Console& console);

@@ -127,6 +127,7 @@ Candidates operands(Verb command) {
     case Verb::format:
     case Verb::expand:
     case Verb::split:
+    case Verb::farm:
     case Verb::stereogram: return sceneFiles();
     case Verb::diff: return pictureFiles();
     case Verb::merge:

@@ -2,10 +2,12 @@
 
 #include <fcntl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -54,6 +56,19 @@ std::string ownFolder() {
 
 std::string programIn(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / name).string();
+}
+
+ProgramAnswer answerOf(const std::vector<std::string>& words) {
+  std::string line;
+  for (const std::string& word : words) line += quotedForShell(word) + " ";
+  std::FILE* const pipe = ::popen((line + "2>&1 </dev/null").c_str(), "r");
+  if (!pipe) return {127, std::strerror(errno)};
+  ProgramAnswer answer;
+  char part[4096];
+  while (const std::size_t length = std::fread(part, 1, sizeof part, pipe)) answer.text.append(part, length);
+  const int status = ::pclose(pipe);
+  answer.code = WIFEXITED(status) ? WEXITSTATUS(status) : 1;
+  return answer;
 }
 
 void becomeProgram(const std::vector<std::string>& words) {

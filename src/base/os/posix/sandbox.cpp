@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "base/files/file.h"
 #include "base/os/linux.h"
+#include "base/os/process.h"
 
 #if defined(TRACE_OS_LINUX)
 
@@ -52,13 +53,6 @@ namespace fs = std::filesystem;
 constexpr const char *kProgramFolder = "/program", *kInputFolder = "/scene", *kOutputFolder = "/out";
 constexpr std::size_t kMostSaid = 2000;
 constexpr int kMostProcesses = 64, kMostOpenFiles = 256;
-
-/// The text as one word of the shell.
-std::string shellWord(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
 
 std::string replacedAll(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != text.npos; at += to.size())
@@ -557,8 +551,8 @@ Plan planOf(const SandboxJob& job, const std::string& own) {
   plan.uidMap = "1000 " + std::to_string(::geteuid()) + " 1\n";
   plan.gidMap = "1000 " + std::to_string(::getegid()) + " 1\n";
   plan.tmpOptions = "size=" + std::to_string(4 * job.limits.output) + ",nr_inodes=10000,mode=755";
-  plan.command = replacedAll(job.command, "{scene}", shellWord(inputPath(job)));
-  plan.command = replacedAll(plan.command, "{out}", shellWord(plan.output));
+  plan.command = replacedAll(job.command, "{scene}", os::quotedForShell(inputPath(job)));
+  plan.command = replacedAll(plan.command, "{out}", os::quotedForShell(plan.output));
   return plan;
 }
 

@@ -87,6 +87,19 @@ std::string programIn(const std::string& folder, const std::string& name) {
   return (std::filesystem::path(folder) / (name + ".exe")).generic_string();
 }
 
+/// By the command interpreter, which takes the outer quotes away.
+ProgramAnswer answerOf(const std::vector<std::string>& words) {
+  std::wstring line = L"\"";
+  for (const std::string& word : words) line += quoted(wide(word)) + L" ";
+  std::FILE* const pipe = ::_wpopen((line + L"2>&1 <NUL\"").c_str(), L"rb");
+  if (!pipe) return {127, "the system refused"};
+  ProgramAnswer answer;
+  char part[4096];
+  while (const std::size_t length = std::fread(part, 1, sizeof part, pipe)) answer.text.append(part, length);
+  answer.code = ::_pclose(pipe);
+  return answer;
+}
+
 /// Windows cannot replace a program: this one waits for the other, and ends as it does.
 void becomeProgram(const std::vector<std::string>& words) {
   std::wstring line;

@@ -11,6 +11,9 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_FS
 #include <tiny_gltf.h>
+// Where it includes the header of Windows, these are macros of nothing.
+#undef near
+#undef far
 
 #include "math/color.h"
 #include "math/vec.h"
