@@ -51,7 +51,8 @@ TEST(PictureViews, AChannelAloneIsGrey) {
   picture.at(0, 0) = {0.25, 0.5, 1};
   EXPECT_EQ(channelOf(picture, ShownChannel::all).at(0, 0), picture.at(0, 0));
   EXPECT_EQ(channelOf(picture, ShownChannel::green).at(0, 0), Color(0.5));
-  EXPECT_NEAR(channelOf(picture, ShownChannel::luminance).at(0, 0).g, 0.299 * 0.25 + 0.587 * 0.5 + 0.114, 1e-12);
+  EXPECT_NEAR(channelOf(picture, ShownChannel::luminance).at(0, 0).g, 0.299 * 0.25 + 0.587 * 0.5 + 0.114,
+              1e-12);
 }
 
 TEST(PictureViews, AHistogramCountsEveryPixelOnceInEachChannel) {
