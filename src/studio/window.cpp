@@ -16,6 +16,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/view/magnifier.h"
 #include "base/error.h"
 #include "studio/host.h"
 
@@ -206,13 +207,21 @@ void Window::beginFrame() {
 void Window::draw() const {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, state_->width, state_->height);
-  glClearColor(0, 0, 0, 1);
+  const ImVec4& panel = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
+  glClearColor(panel.x, panel.y, panel.z, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-void Window::endFrame() {
+void Window::endFrame(int magnification) {
   ImGui::Render();
+  ImDrawData& drawn = *ImGui::GetDrawData();
+  const WindowPart part = magnified({drawn.DisplaySize.x, drawn.DisplaySize.y},
+                                    {state_->pointer.x, state_->pointer.y}, magnification);
+  const auto times = static_cast<float>(magnification);
+  drawn.DisplayPos = {static_cast<float>(part.corner.x), static_cast<float>(part.corner.y)};
+  drawn.DisplaySize = {static_cast<float>(part.size.x), static_cast<float>(part.size.y)};
+  drawn.FramebufferScale = {drawn.FramebufferScale.x * times, drawn.FramebufferScale.y * times};
   draw();
   glfwSwapBuffers(state_->window);
 }
