@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/view/magnifier.h"
 #include "studio/dialogs.h"
 #include "studio/host.h"
 #include "studio/panels.h"
@@ -79,6 +80,13 @@ void exportRays(Studio& studio) {
                      (picture.parent_path() / (picture.stem().string() + "-rays.svg")).string(),
                      {".svg", ".png"}, [&studio](const std::string& file) { saveRays(studio, file); });
 }
+void exportStory(Studio& studio) {
+  const std::filesystem::path picture(studio.workspace.defaultPictureFile());
+  studio.dialog.open("Export the view in space and the tree", FileDialog::Purpose::write,
+                     (picture.parent_path() / (picture.stem().string() + "-tree.svg")).string(),
+                     {".svg", ".png", ".apng"},
+                     [&studio](const std::string& file) { saveStory(studio, file); });
+}
 void saveSceneAs(Studio& studio) { saveSceneAsAnd(studio, nullptr); }
 void saveScene(Studio& studio) { saveSceneAnd(studio, nullptr); }
 void zoomText(Studio& studio, float factor) {
@@ -137,6 +145,10 @@ constexpr std::array kActions{
     Action{"File", "Export rays...", 0, false, false,
            "write a drawing of the pixel's rays, from the camera and from the side, as .svg or .png",
            exportRays, [](const Studio& s) { return shownPixel(s) != nullptr; }, nullptr},
+    Action{
+        "File", "Export view and tree...", 0, false, false,
+        "write the view in space with its rays, their tree and the sum as .svg or .png, or as a film: .apng",
+        exportStory, [](const Studio& s) { return shownPixel(s) != nullptr; }, nullptr},
     Action{"File", "Quit", 'Q', true, false, "close the studio",
            [](Studio& s) { s.leave([&s] { s.quit = true; }); }, always, nullptr},
     Action{"Edit", "Undo", 'Z', true, false, "take the last change back", undo,
@@ -181,6 +193,10 @@ constexpr std::array kActions{
            [](const Studio& s) { return s.rays.playsAt >= 0; }},
     Action{"View", "Stage", kF11, false, false, "picture and view in space alone, large; space: the next ray",
            toggleStage, hasScene, [](const Studio& s) { return s.stage; }},
+    Action{"View", "Magnify", 'Z', false, false,
+           "what the pointer is at, twice as large, then four times, then as before",
+           [](Studio& s) { s.magnification = nextMagnification(s.magnification); }, always,
+           [](const Studio& s) { return s.magnification > 1; }},
     Action{"View", "Light theme", 'L', true, false, "dark letters on light, or light on dark",
            [](Studio& s) {
              s.theme.light = !s.theme.light;

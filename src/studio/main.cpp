@@ -47,7 +47,8 @@ bool isBusy(Studio& studio) {
   Workspace& workspace = studio.workspace;
   return workspace.render.state().working() || workspace.reading() || workspace.saving() ||
          workspace.inspector.busy() || studio.rays.modelTask.busy() || studio.rays.chains.busy() ||
-         studio.rays.pyramid.busy() || (!workspace.document.isOpen() && studio.start.task.pending());
+         studio.rays.pyramid.busy() || studio.previews.busy() ||
+         (!workspace.document.isOpen() && studio.start.task.pending());
 }
 
 /// The last error of the log, over the panels.
@@ -89,8 +90,8 @@ bool update(Studio& studio, double longest) {
   const bool modelling =
       studio.rays.modelTask.busy() || studio.rays.chains.busy() || studio.rays.pyramid.busy();
   due = due || smooths() || studio.rays.playsAt >= 0 || studio.start.news(workspace.document.isOpen()) ||
-        studio.pulse != pulse || modelling != studio.modelling || studio.themeChanged ||
-        ImGui::GetIO().WantTextInput;  // its cursor blinks
+        studio.previews.news() || studio.pulse != pulse || modelling != studio.modelling ||
+        studio.themeChanged || ImGui::GetIO().WantTextInput;  // its cursor blinks
   studio.pulse = pulse;
   studio.modelling = modelling;
   return due;
@@ -106,7 +107,7 @@ void frame(Studio& studio) {
   studio.window.beginFrame();
   studio.keys = studio.window.keys();
   drawStudio(studio);
-  studio.window.endFrame();
+  studio.window.endFrame(studio.magnification);
   ++studio.frames;
 }
 

@@ -298,6 +298,8 @@ constexpr std::array kCommands{
             "the view of the render: 0 picture, 1 samples, 2 noise, 3 change by denoise",
             [](Studio& s, const Words& a) { s.picture.plane = planeOf(a[0]); },
             [](const Words& a) { planeOf(a[0]); }},
+    Command{"pass", "NAME", 1, 1, "the pass of the render that is seen; picture: none",
+            [](Studio& s, const Words& a) { s.picture.pass = a[0] == "picture" ? "" : a[0]; }},
     Command{"samples", "NUMBER", 1, 1,
             "until pixels have so many samples on the average, or the picture is finished", nullptr,
             checkNumbers, 3,
@@ -378,6 +380,12 @@ constexpr std::array kCommands{
             [](Studio& s, const Words& a) {
               if (!shownPixel(s)) throw Error(Fault::usage, "no rays are shown");
               saveRays(s, a[0]);
+            }},
+    Command{"save-story", "FILE", 1, 1,
+            "write the view in space with the rays and their tree, as .svg or .png, or as a film: .apng",
+            [](Studio& s, const Words& a) {
+              if (!shownPixel(s)) throw Error(Fault::usage, "no rays are shown");
+              saveStory(s, a[0]);
             }},
     Command{"screenshot", "FILE [PART...]", 1, 9, "write what the window shows, or a part that `state` names",
             [](Studio& s, const Words& a) {

@@ -22,7 +22,8 @@ void drawCaption(Studio& studio) {
   ImGui::PushTextWrapPos();
   if (!pixel) {
     ImGui::TextDisabled(
-        "Click on the picture. Space: the next ray. P: all, one after the other. F11 or Esc: back.");
+        "Click on the picture. Space: the next ray. P: all, one after the other. Z: magnify. F11 or Esc: "
+        "back.");
   } else if (const int ray = view.step - 1; view.step > 0 && ray < static_cast<int>(view.rays)) {
     ImGui::TextColored(rayColour(studio, *pixel, ray), "%d of %d  %s: %s", view.step,
                        static_cast<int>(view.rays), rayName(*pixel, ray),
@@ -40,6 +41,7 @@ void drawCaption(Studio& studio) {
 void toggleStage(Studio& studio) {
   studio.stage = !studio.stage;
   studio.themeChanged = true;  // all is larger on it
+  studio.magnification = 1;
 }
 
 void stepOnStage(Studio& studio) {

@@ -17,15 +17,17 @@ struct Studio;
 
 struct StartPage {
   std::string folder;  ///< folder of the scenes that come with the program; "" if there is none
-  std::vector<ExampleScene> lessons, scenes;
-  /// Small pictures of the lessons, then of the scenes, as far as they are made.
+  std::vector<ExampleScene> lessons, integrators, scenes;
+  /// Small pictures of the lessons, of those for integrators, then of the scenes, as far as they are made.
   std::vector<std::unique_ptr<Texture>> pictures;
   struct Thumbnail {
     Bytes bytes;
   };
   BackgroundTask<Thumbnail> task;
   bool looked = false;  ///< for the scenes
-  bool complete() const { return looked && pictures.size() == lessons.size() + scenes.size(); }
+  bool complete() const {
+    return looked && pictures.size() == lessons.size() + integrators.size() + scenes.size();
+  }
   /// A small picture is there to be shown.
   bool news(bool sceneIsOpen) const { return !sceneIsOpen && task.pending() && !task.busy(); }
 };

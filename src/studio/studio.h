@@ -12,6 +12,7 @@
 #include "app/editing/workspace.h"
 #include "app/view/arrangement.h"
 #include "studio/picture/picture_view.h"
+#include "studio/scene/additions_popup.h"
 #include "studio/space/rays_view.h"
 #include "studio/start_page.h"
 #include "studio/widgets/file_dialog.h"
@@ -47,6 +48,7 @@ struct Studio {
   PictureView picture;
   RaysView rays;
   StartPage start;
+  Previews previews;
   std::string raysTab;     ///< a tab of the panel Rays to bring to the front
   std::string menuToOpen;  ///< by its name, for the keyboard
   FileDialog dialog;
@@ -63,6 +65,7 @@ struct Studio {
   bool modelling = false;    ///< the view in space gets new triangles
   std::string sceneFile;     ///< that the selection and the views belong to
   bool stage = false;        ///< picture and view in space alone, large
+  int magnification = 1;     ///< the part around the pointer fills the window
   bool showHelp = false, showAbout = false, quit = false;
 
   // The scene panel's selection: what kind of thing, and its index.

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/view/magnifier.h"
 #include "base/error.h"
 #include "studio/host.h"
 #include "studio/widgets/gl.h"
@@ -208,8 +209,15 @@ void Window::draw() const {
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 
-void Window::endFrame() {
+void Window::endFrame(int magnification) {
   ImGui::Render();
+  ImDrawData& drawn = *ImGui::GetDrawData();
+  const WindowPart part = magnified({drawn.DisplaySize.x, drawn.DisplaySize.y},
+                                    {state_->pointer.x, state_->pointer.y}, magnification);
+  const auto times = static_cast<float>(magnification);
+  drawn.DisplayPos = {static_cast<float>(part.corner.x), static_cast<float>(part.corner.y)};
+  drawn.DisplaySize = {static_cast<float>(part.size.x), static_cast<float>(part.size.y)};
+  drawn.FramebufferScale = {drawn.FramebufferScale.x * times, drawn.FramebufferScale.y * times};
   draw();
   glfwSwapBuffers(state_->window);
 }

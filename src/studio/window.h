@@ -32,7 +32,8 @@ class Window {
   bool wait(double mostSeconds);
   /// Hands the frame its share of what happened: the rest is for the next frames.
   void beginFrame();
-  void endFrame();
+  /// The part of the window around the pointer fills it, so many times as large.
+  void endFrame(int magnification);
   /// Nothing that happened up to now waits for a frame.
   bool quiet();
   /// Seconds since mouse or keyboard did something.

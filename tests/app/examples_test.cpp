@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "app/session/session.h"
+#include "scene/integrators.h"
 #include "support/paths.h"
 
 namespace trace::test {
@@ -12,8 +14,14 @@ TEST(StartPage, HasLessonsAndScenesThatCanBeRendered) {
   const std::string folder = sourceFolder() + "/scenes";
   const std::vector<ExampleScene> lessons = lessonsIn(folder), scenes = examplesIn(folder);
   EXPECT_EQ(lessons.size(), 4u);
-  EXPECT_EQ(scenes.size(), 10u);
-  for (const auto& list : {lessons, scenes})
+  EXPECT_EQ(scenes.size(), 7u);
+  const std::vector<ExampleScene> integrators = integratorScenesIn(folder);
+  for (const ExampleScene& scene : integrators) {
+    Session session;
+    session.open(scene.file, {});
+    EXPECT_EQ(scene.title, rowOf(session.settings()).name) << scene.file;
+  }
+  for (const auto& list : {lessons, integrators, scenes})
     for (const ExampleScene& scene : list) {
       const Bytes picture = thumbnail(scene.file, 32);
       EXPECT_EQ(picture.width, 32) << scene.file;

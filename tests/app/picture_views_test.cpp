@@ -5,6 +5,10 @@
 
 #include <cmath>
 
+#include "app/session/session.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "support/scenes.h"
+
 namespace trace::test {
 namespace {
 
@@ -45,9 +49,9 @@ TEST(PictureViews, ThePixelsLevelsAreThoseOfTheTone) {
 TEST(PictureViews, AChannelAloneIsGrey) {
   Picture picture(1, 1);
   picture.at(0, 0) = {0.25, 0.5, 1};
-  EXPECT_EQ(channelOf(picture, Channel::all).at(0, 0), picture.at(0, 0));
-  EXPECT_EQ(channelOf(picture, Channel::green).at(0, 0), Color(0.5));
-  EXPECT_NEAR(channelOf(picture, Channel::luminance).at(0, 0).g, 0.299 * 0.25 + 0.587 * 0.5 + 0.114, 1e-12);
+  EXPECT_EQ(channelOf(picture, ShownChannel::all).at(0, 0), picture.at(0, 0));
+  EXPECT_EQ(channelOf(picture, ShownChannel::green).at(0, 0), Color(0.5));
+  EXPECT_NEAR(channelOf(picture, ShownChannel::luminance).at(0, 0).g, 0.299 * 0.25 + 0.587 * 0.5 + 0.114, 1e-12);
 }
 
 TEST(PictureViews, AHistogramCountsEveryPixelOnceInEachChannel) {
@@ -129,6 +133,38 @@ TEST(PictureViews, FalseColoursAreBlackWithoutADifferenceAndGetBrighter) {
     EXPECT_GT(c.r + c.g + c.b, before);
     before = c.r + c.g + c.b;
   }
+}
+
+TEST(PictureViews, APictureOfAnotherSizeIsResampledByMeans) {
+  Picture small(4, 2);
+  for (int x = 0; x < 4; ++x)
+    for (int y = 0; y < 2; ++y) small.at(x, y) = Color(x, y, 1);
+  const Picture half = resampled(small, 2, 1), same = resampled(small, 4, 2), large = resampled(small, 8, 4);
+  ASSERT_EQ(half.width, 2);
+  EXPECT_NEAR(half.at(0, 0).r, 0.5, 1e-12);
+  EXPECT_NEAR(half.at(1, 0).r, 2.5, 1e-12);
+  EXPECT_NEAR(half.at(1, 0).g, 0.5, 1e-12);
+  EXPECT_EQ(same.pixels, small.pixels);
+  EXPECT_NEAR(large.at(7, 3).r, 3, 1e-12);
+  EXPECT_NEAR(resampled(Picture(400, 267), 300, 200).at(150, 100).r, 0, 1e-12) << "as near as pixels allow";
+  EXPECT_EQ(resampled(Picture(400, 300), 300, 200).width, 0);
+}
+
+TEST(PictureViews, PassesThatWereRenderedCanBeSeen) {
+  Scene scene;
+  addObject(scene, Sphere{}, {}, {});
+  scene.camera.position = {0, 0, 4};
+  Settings settings{.width = 16, .height = 16};
+  settings.passes = {Pass::normal, Pass::depth};
+  Session session;
+  session.open(scene, settings);
+  session.build();
+  session.renderPicture();
+  EXPECT_EQ(passesToSee(session.settings()), (std::vector<std::string_view>{"depth", "normal"}));
+  const PlaneView normals =
+      passView("normal", session.film(), session.settings(), session.names(), session.picture());
+  EXPECT_NEAR(normals.colours.at(8, 8).b, 1, 0.05) << "toward the camera";
+  EXPECT_NE(normals.legend.find("normal"), std::string::npos);
 }
 
 }  // namespace

@@ -141,5 +141,24 @@ TEST(PixelWhy, TheSummandsAddUpToTheRadiance) {
   EXPECT_TRUE(named);
 }
 
+TEST(PixelWhy, EveryRayHasAnEquation) {
+  Phong mirror = grey();
+  mirror.reflective = Color(0.5);
+  Scene scene = ballOf(mirror);
+  scene.lights.push_back({AmbientLight{.color = Color(0.2)}, {}});
+  Session session;
+  session.open(scene, {.width = 40, .height = 40});
+  session.build();
+  const RayTree tree = session.explain(20, 20, 0).tree;
+  const std::string camera = equationOf(tree, session.scene(), 0);
+  EXPECT_NE(camera.find(" = "), std::string::npos) << camera;
+  EXPECT_NE(camera.find("reflection "), std::string::npos) << camera;
+  for (int ray = 0; ray < static_cast<int>(tree.nodes.size()); ++ray) {
+    Color sum;
+    for (const WhySummand& each : sumOf(tree, session.scene(), ray)) sum = sum + each.color;
+    if (rayAt(tree, ray).kind != RayKind::shadow) EXPECT_NEAR(sum.r, rayAt(tree, ray).radiance.r, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace trace::test

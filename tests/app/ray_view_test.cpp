@@ -286,6 +286,16 @@ TEST(SceneModel, SaysWhatIsDrawnCoarselyOrNotAtAll) {
   EXPECT_EQ(modeler.model(scene).warnings, warnings);  // of shapes that were kept, too
 }
 
+TEST(SceneModel, IsAsFineAsItIsAskedFor) {
+  Scene scene;
+  addObject(scene, Sphere{}, {}, {});
+  SceneModeler modeler;
+  const std::size_t usual = modeler.model(scene).corners.size();
+  EXPECT_LT(modeler.model(scene, {}, 0.5).corners.size(), usual / 2);
+  EXPECT_GT(modeler.model(scene, {}, 2).corners.size(), 2 * usual);
+  EXPECT_EQ(modeler.model(scene).corners.size(), usual);
+}
+
 TEST(SceneModel, IsFramedOnWhatCanBeShownTogether) {
   for (const Real far : {1e12, 1e30, 1e300, -1e300, 1e308}) {
     Scene scene;

@@ -34,8 +34,7 @@ void arrange(TracedPixel& pixel) {
     pixel.hasChildren[parent] = 1;
   }
   pixel.ways = pathWays(pixel.tree());
-  const Session& session = *pixel.session;
-  pixel.why = whyOf(pixel.tree(), pixel.scene(), session.settings().exposure + session.measuredExposure());
+  pixel.why = whyOf(pixel.tree(), pixel.scene(), pixel.session->settings().exposure);
 }
 
 }  // namespace

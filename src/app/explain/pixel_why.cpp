@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "app/explain/ray_view.h"
 #include "base/text.h"
 #include "shading/bsdf.h"
 
@@ -154,10 +156,16 @@ int lastBelow(const RayTree& tree, int ray) {
   return last;
 }
 
-/// The camera ray's terms, in their order.
-std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene) {
+/// The object or light that the camera ray came to.
+std::string thingSeen(const RayNode& root, const Scene& scene) {
+  return root.hit ? objectName(scene, root.hit->object) : "";
+}
+
+}  // namespace
+
+std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene, int ray) {
   std::vector<WhySummand> sum;
-  const RayNode& root = rayAt(tree, 0);
+  const RayNode& root = rayAt(tree, ray);
   for (const Term& term : root.terms) {
     std::string name(Term::kNames[static_cast<std::size_t>(term.kind)]);
     if (term.light) name += " " + lightName(scene, term.light->light);
@@ -166,7 +174,7 @@ std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene) {
     if (term.dark || (isBlack(color) && term.ray < 0 && !term.light)) continue;
     const auto same =
         std::find_if(sum.begin(), sum.end(), [&](const WhySummand& s) { return s.name == name; });
-    const int last = term.ray < 0 ? 0 : lastBelow(tree, term.ray);
+    const int last = term.ray < 0 ? ray : lastBelow(tree, term.ray);
     if (same == sum.end()) {
       sum.push_back({name, color, term.ray, last});
     } else {
@@ -177,12 +185,15 @@ std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene) {
   return sum;
 }
 
-/// The object or light that the camera ray came to.
-std::string thingSeen(const RayNode& root, const Scene& scene) {
-  return root.hit ? objectName(scene, root.hit->object) : "";
+std::string equationOf(const RayTree& tree, const Scene& scene, int ray) {
+  const RayNode& node = rayAt(tree, ray);
+  if (node.kind == RayKind::shadow) return "passes " + channels(node.radiance);
+  std::string text = channels(node.radiance);
+  const char* sign = " = ";
+  for (const WhySummand& each : sumOf(tree, scene, ray))
+    text += std::exchange(sign, " + ") + each.name + " " + channels(each.color);
+  return text;
 }
-
-}  // namespace
 
 Color sumAfter(const std::vector<WhySummand>& sum, int rays) {
   Color after;

@@ -35,6 +35,13 @@ struct PixelWhy {
   std::vector<WhyCure> cures;  ///< the strongest last
 };
 
+/// The terms of a ray's radiance, in their order: those of one kind and one light together.
+std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene, int ray = 0);
+
+/// That sum in words: "0.5 0.4 0.3 = light lamp 0.4 0.3 0.2 + reflection 0.1 0.1 0.1"; of a shadow ray, the
+/// share of the light that passes.
+std::string equationOf(const RayTree& tree, const Scene& scene, int ray);
+
 /// The sum after the first `rays` rays in the order of tracing: its terms of which no ray is missing.
 Color sumAfter(const std::vector<WhySummand>& sum, int rays);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/explain/ray_segments.h"
 #include "base/text.h"
 #include "scene/groups.h"
 
@@ -105,6 +106,17 @@ std::string channels(const Color& c) {
   char buffer[96];
   std::snprintf(buffer, sizeof buffer, "%.3g %.3g %.3g", c.r + 0.0, c.g + 0.0, c.b + 0.0);  // no -0
   return buffer;
+}
+
+std::string metBy(const RayTree& tree, const Scene& scene, int ray) {
+  const RayNode& node = rayAt(tree, ray);
+  if (const MediumTerm* medium = scatteredIn(node))
+    return medium->object == Filling::kAir ? "fog" : objectName(scene, medium->object);
+  if (node.hit) return objectName(scene, node.hit->object);
+  for (const RayEnd& end : node.ends)
+    if (const auto* stop = std::get_if<Blocked>(&end)) return objectName(scene, stop->object);
+  const Term* term = termOf(tree, ray);
+  return term && term->light ? lightName(scene, term->light->light) : "";
 }
 
 Real share(const RayNode& node) { return std::abs(maxComponent(node.weight * node.radiance)); }

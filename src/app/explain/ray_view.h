@@ -16,6 +16,9 @@ Real share(const RayNode& node);
 /// "0.12 0.1 0.0813": red, green and blue.
 std::string channels(const Color& c);
 
+/// The object, light or medium that the ray came to; "" if none.
+std::string metBy(const RayTree& tree, const Scene& scene, int ray);
+
 /// Name and value of everything that is known of the ray, in groups with a heading (an empty value).
 std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, int node, const Scene& scene);
 

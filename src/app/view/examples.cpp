@@ -4,6 +4,7 @@
 #include <array>
 #include <exception>
 #include <filesystem>
+#include <span>
 #include <utility>
 
 #include "app/session/session.h"
@@ -26,11 +27,18 @@ constexpr std::array kExamples{
     Row{"materials.ray", "Materials", "highlights and mirrors"},
     Row{"shadows.ray", "Shadows", "of glass and of lights with a size"},
     Row{"csg.ray", "Solids of solids", "union, intersection and difference"},
-    Row{"mirrors.ray", "Mirrors", "in mirrors"},
     Row{"textures.ray", "Textures", "colours that are patterns"},
     Row{"chess.ray", "Chess", "a board with its pieces"},
-    Row{"cornell.ray", "A lit room", "path tracing: walls light each other"},
-    Row{"photons.ray", "Caustics", "photon mapping: glass and brass focus the light"},
+};
+constexpr std::array kIntegratorScenes{
+    Row{"mirrors.ray", "whitted", "mirrors in mirrors: a ray for each reflection, refraction and light"},
+    Row{"cornell.ray", "path", "a lit room: paths that bounce, so that walls light each other"},
+    Row{"uplight.ray", "bdpt",
+        "bulbs that no surface sees: paths from the camera, joined with paths from lights"},
+    Row{"door.ray", "mlt",
+        "light through a door that stands ajar: Markov chains that found a path stay near it"},
+    Row{"photons.ray", "photon",
+        "glass and brass focus light: photons from the lights are stored where they land"},
 };
 constexpr std::array kLessons{
     Row{"lessons/black-glass.ray", "Black glass", "Why is the ball black?"},
@@ -69,7 +77,7 @@ namespace {
 /// Few samples of light from all sides, without their noise.
 void takeBouncedLight(Settings& settings) {
   constexpr int kSamples = 8, kMostBounces = 6;
-  settings.integrator = IntegratorKind::path;
+  settings.integrator = hasTrait(settings, Trait::splats) ? IntegratorKind::bdpt : IntegratorKind::path;
   settings.spp = kSamples;
   settings.depth = std::min(settings.depth, kMostBounces);
   settings.fireflyLimit = 1;
@@ -80,29 +88,37 @@ void takeBouncedLight(Settings& settings) {
 
 std::vector<ExampleScene> examplesIn(const std::string& folder) { return found(folder, kExamples); }
 std::vector<ExampleScene> lessonsIn(const std::string& folder) { return found(folder, kLessons); }
+std::vector<ExampleScene> integratorScenesIn(const std::string& folder) {
+  return found(folder, kIntegratorScenes);
+}
+
+Bytes thumbnail(Scene scene, int width) {
+  constexpr int kSamples = 4;
+  Settings settings = resolve({scene.choices});
+  settings.width = width;
+  settings.height = 0;
+  settings.region = {};
+  settings.spp = kSamples;
+  settings.noiseTarget = 0;
+  settings.subdivide = 0;
+  settings.denoise = false;
+  settings.shutter = 0;
+  settings.caustics = 0;
+  if (hasTrait(settings, Trait::bounces) || hasTrait(settings, Trait::byChains)) takeBouncedLight(settings);
+  settings.threads = 1;  // the window comes first
+  Session small;
+  small.open(std::move(scene), settings);
+  small.build();
+  small.renderPicture();
+  const Picture levels = developed(small.picture(), developmentOf(small.settings()));
+  return exposed(levels, 0, settings.rounding);
+}
 
 Bytes thumbnail(const std::string& file, int width) {
-  constexpr int kSamples = 4;
   try {
     Session whole;
-    whole.open(file, std::vector<Choice>{{"width", std::to_string(width), {}}});
-    Settings settings = whole.settings();
-    settings.height = 0;
-    settings.region = {};
-    settings.spp = kSamples;
-    settings.noiseTarget = 0;
-    settings.subdivide = 0;
-    settings.denoise = false;
-    settings.shutter = 0;
-    settings.caustics = 0;
-    if (hasTrait(settings, Trait::bounces) || hasTrait(settings, Trait::byChains)) takeBouncedLight(settings);
-    settings.threads = 1;  // the window comes first
-    Session small;
-    small.open(whole.scene(), settings);
-    small.build();
-    small.renderPicture();
-    const Picture levels = developed(small.picture(), developmentOf(small.settings()));
-    return exposed(levels, 0, settings.rounding);
+    whole.open(file, std::span<const Choice>());
+    return thumbnail(whole.scene(), width);
   } catch (const std::exception&) {
     return {};
   }

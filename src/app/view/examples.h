@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "image/development/tone.h"
+#include "scene/scene.h"
 
 namespace trace {
 
@@ -20,8 +21,12 @@ std::string examplesFolder(const std::string& program);
 std::vector<ExampleScene> examplesIn(const std::string& folder);
 /// Scenes with a mistake to be found.
 std::vector<ExampleScene> lessonsIn(const std::string& folder);
+/// A scene for each integrator that shows its purpose. Their titles are the integrators' names.
+std::vector<ExampleScene> integratorScenesIn(const std::string& folder);
 
 /// A small picture of the scene of that file, with few samples. Empty if it cannot be read or rendered.
 Bytes thumbnail(const std::string& file, int width);
+/// A small picture of a scene that was read before. Throws Error.
+Bytes thumbnail(Scene scene, int width);
 
 }  // namespace trace

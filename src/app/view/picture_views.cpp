@@ -8,6 +8,7 @@
 #include "image/comparison/compare.h"
 #include "image/comparison/false_color.h"
 #include "math/vec.h"
+#include "render/picture/passes.h"
 #include "shading/texture.h"
 
 namespace trace {
@@ -94,6 +95,49 @@ PlaneView planeView(FilmPlane plane, const Film& film, const Picture& shown) {
   return {shown, ""};
 }
 
+std::vector<std::string_view> passesToSee(const Settings& settings) {
+  std::vector<std::string_view> names;
+  for (const PassRow* row : passesOf(settings))
+    if (row->pass != Pass::object && row->pass != Pass::material) names.push_back(row->name);
+  return names;
+}
+
+PlaneView passView(std::string_view pass, const Film& film, const Settings& settings, const PassNames& names,
+                   const Picture& shown) {
+  for (const PassRow* row : passesOf(settings)) {
+    if (row->name != pass) continue;
+    Picture values = valuesOf(*row, film, settings, names, shown);
+    if (row->shown) values = row->shown(values, settings);
+    return {clamped(std::move(values)), std::string(row->name) + ": " + std::string(row->help)};
+  }
+  return {shown, ""};
+}
+
+Picture resampled(const Picture& picture, int width, int height) {
+  const auto across = static_cast<long long>(picture.width) * height,
+             down = static_cast<long long>(width) * picture.height;
+  if (picture.width < 1 || width < 1 || height < 1 || std::abs(across - down) > picture.width + width)
+    return {};
+  /// Adds the part of each old pixel that lies in a new one: mix(to, from, share).
+  const auto cover = [](int from, int to, const auto& mix) {
+    const double each = static_cast<double>(from) / to;
+    for (int i = 0; i < to; ++i) {
+      const double low = i * each, high = (i + 1) * each;
+      for (int j = static_cast<int>(low); j < std::min(from, static_cast<int>(std::ceil(high))); ++j)
+        if (const double share = (std::min(high, j + 1.0) - std::max(low, double(j))) / each; share > 0)
+          mix(i, j, share);
+    }
+  };
+  Picture narrow(width, picture.height), result(width, height);
+  cover(picture.width, width, [&](int to, int from, double share) {
+    for (int y = 0; y < picture.height; ++y) narrow.at(to, y) += picture.at(from, y) * share;
+  });
+  cover(picture.height, height, [&](int to, int from, double share) {
+    for (int x = 0; x < width; ++x) result.at(x, to) += narrow.at(x, from) * share;
+  });
+  return result;
+}
+
 std::string convergenceText(const Convergence& convergence) {
   std::string text =
       formatted("%.4g %s a pixel", convergence.samples, convergence.samples == 1 ? "sample" : "samples");
@@ -149,14 +193,14 @@ Picture falseColours(const Picture& a, const Picture& b, double magnify) {
   return picture;
 }
 
-Picture channelOf(const Picture& picture, Channel channel) {
-  if (channel == Channel::all) return picture;
+Picture channelOf(const Picture& picture, ShownChannel channel) {
+  if (channel == ShownChannel::all) return picture;
   Picture grey = picture;
   for (Color& c : grey.pixels)
-    c = Color(channel == Channel::red     ? c.r
-              : channel == Channel::green ? c.g
-              : channel == Channel::blue  ? c.b
-                                          : luminance(c));
+    c = Color(channel == ShownChannel::red     ? c.r
+              : channel == ShownChannel::green ? c.g
+              : channel == ShownChannel::blue  ? c.b
+                                               : luminance(c));
   return grey;
 }
 

@@ -3,10 +3,14 @@
 
 #include <array>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "image/development/tone.h"
 #include "image/film/film.h"
 #include "image/picture.h"
+#include "render/picture/pass_facts.h"
+#include "scene/settings.h"
 
 namespace trace {
 
@@ -24,11 +28,11 @@ Picture differences(const Picture& a, const Picture& b, double magnify);
 Picture falseColours(const Picture& a, const Picture& b, double magnify);
 
 /// One channel of a picture, or all.
-enum class Channel { all, red, green, blue, luminance };
+enum class ShownChannel { all, red, green, blue, luminance };
 inline constexpr const char* kChannelNames[] = {"Colours", "Red", "Green", "Blue", "Luminance"};
 
 /// That channel as grey; the picture itself for all.
-Picture channelOf(const Picture& picture, Channel channel);
+Picture channelOf(const Picture& picture, ShownChannel channel);
 
 /// How many pixels have each value of a channel from 0 to 1; values outside count at the ends.
 struct Histogram {
@@ -50,7 +54,7 @@ Color falseColour(double value);
 
 /// The views of a render that may replace its picture.
 enum class FilmPlane { picture, samples, noise, change };
-inline constexpr const char* kPlaneNames[] = {"Picture", "Samples", "Noise", "Denoised: change"};
+inline constexpr const char* kPlaneNames[] = {"Picture", "Samples", "Noise", "Denoised"};
 
 /// A plane of a film in colours, from black over violet, red and yellow to white, and what they mean.
 /// `shown` is the film's picture, perhaps without noise. Precondition: not the picture itself.
@@ -59,6 +63,16 @@ struct PlaneView {
   std::string legend;
 };
 PlaneView planeView(FilmPlane plane, const Film& film, const Picture& shown);
+
+/// The passes that a film has and that can be seen, by their names.
+std::vector<std::string_view> passesToSee(const Settings& settings);
+/// One of them, and what it shows. `shown` is the film's picture, perhaps without noise.
+PlaneView passView(std::string_view pass, const Film& film, const Settings& settings, const PassNames& names,
+                   const Picture& shown);
+
+/// The picture with another number of pixels: each is the mean of the part that it covers. Empty if the
+/// pictures differ in shape by more than a pixel.
+Picture resampled(const Picture& picture, int width, int height);
 
 /// "12.5 samples a pixel, noise 1.3 levels": how far a render has come.
 std::string convergenceText(const Convergence& convergence);

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/explain/ray_segments.h"
+#include "app/view/panel.h"
 #include "app/view/room.h"
 #include "app/view/scene_model.h"
 #include "render/picture/passes.h"
@@ -16,94 +17,6 @@ namespace trace {
 namespace {
 
 constexpr double kPanelWidth = 640, kEdge = 16, kLine = 18;
-constexpr Color kInk{0.15, 0.15, 0.15};
-
-/// A view of the scene: its frame on the drawing, and the way from space to it.
-class Panel {
- public:
-  Panel(const CameraFrame& camera, const Point2& at, double width, double height)
-      : camera_(camera), at_(at), width_(width), height_(height), eye_(camera.eye) {
-    // p = eye + s (look + a right + b up): (s a, s b, s) = inverse of the axes' matrix.
-    Affine axes;
-    for (int i = 0; i < 3; ++i) axes.row[i] = {camera.right[i], camera.up[i], camera.look[i]};
-    toPlane_ = inverse(axes);
-  }
-
-  DrawnFrame frame() const { return {at_, width_, height_}; }
-
-  /// Nothing of a segment outside the view is drawn.
-  void line(Drawing& drawing, Vec3 from, Vec3 to, const Color& color, double width, bool dashed) const {
-    if (!camera_.plain) return bent(drawing, from, to, color, width, dashed);
-    Vec3 a = linear(toPlane_, from - eye_), b = linear(toPlane_, to - eye_);
-    const Real near = 1e-6 * std::max(std::abs(a.z), std::abs(b.z));  // just before the eye
-    if (!isFinite(a) || !isFinite(b) || (a.z <= near && b.z <= near)) return;
-    if (a.z < near) a = a + (b - a) * ((near - a.z) / (b.z - a.z));
-    if (b.z < near) b = b + (a - b) * ((near - b.z) / (a.z - b.z));
-    Point2 p = place(a), q = place(b);
-    if (clip(p, q)) drawing.things.push_back(DrawnLine{p, q, color, width, dashed});
-  }
-
-  void disk(Drawing& drawing, const Vec3& point, double radius, const Color& color) const {
-    const auto seen = isFinite(point) ? camera_.placeOf(point) : std::nullopt;
-    if (!seen || !std::isfinite(seen->x) || !std::isfinite(seen->y)) return;
-    const Point2 at = place(*seen);
-    if (at.x > at_.x && at.x < at_.x + width_ && at.y > at_.y && at.y < at_.y + height_)
-      drawing.things.push_back(DrawnDisk{at, radius, color});
-  }
-
- private:
-  /// In a projection that bends lines, or from two eyes: piece by piece.
-  void bent(Drawing& drawing, const Vec3& from, const Vec3& to, const Color& color, double width,
-            bool dashed) const {
-    constexpr int kPieces = 48;
-    std::optional<Point2> last;
-    for (int i = 0; i <= kPieces; ++i) {
-      const Vec3 at = from + (to - from) * (static_cast<Real>(i) / kPieces);
-      const auto seen = isFinite(at) ? camera_.placeOf(at) : std::nullopt;
-      const bool finite = seen && std::isfinite(seen->x) && std::isfinite(seen->y);
-      const std::optional<Point2> here = finite ? std::optional(place(*seen)) : std::nullopt;
-      // A panorama's line may leave at one side and come back at the other.
-      if (last && here && std::abs(here->x - last->x) < width_ / 2) {
-        Point2 p = *last, q = *here;
-        if (clip(p, q)) drawing.things.push_back(DrawnLine{p, q, color, width, dashed});
-      }
-      last = here;
-    }
-  }
-
-  Point2 place(const Vec2& p) const { return {at_.x + width_ * p.x, at_.y + height_ * (1 - p.y)}; }
-  Point2 place(const Vec3& p) const {
-    return {at_.x + width_ * (p.x / p.z + 0.5), at_.y + height_ * (0.5 - p.y / p.z)};
-  }
-
-  /// To a little more than the frame (Liang and Barsky 1984); false if nothing is left.
-  bool clip(Point2& p, Point2& q) const {
-    constexpr double kBeyond = 8;
-    const double dx = q.x - p.x, dy = q.y - p.y;
-    double first = 0, last = 1;
-    const auto within = [&](double d, double room) {  // room: what t d may be at most
-      if (d == 0) return room >= 0;
-      if (d > 0)
-        last = std::min(last, room / d);
-      else
-        first = std::max(first, room / d);
-      return first <= last;
-    };
-    if (!within(dx, at_.x + width_ + kBeyond - p.x) || !within(-dx, p.x - at_.x + kBeyond) ||
-        !within(dy, at_.y + height_ + kBeyond - p.y) || !within(-dy, p.y - at_.y + kBeyond))
-      return false;
-    const Point2 start = p;
-    p = {start.x + dx * first, start.y + dy * first};
-    q = {start.x + dx * last, start.y + dy * last};
-    return true;
-  }
-
-  CameraFrame camera_;
-  Point2 at_;
-  double width_, height_;
-  Vec3 eye_;
-  Affine toPlane_;
-};
 
 /// The view of the world's camera, paler; white where nothing is.
 DrawnPicture faint(const World& world, Settings settings, const Point2& at, double width, double height) {
@@ -126,23 +39,6 @@ DrawnPicture faint(const World& world, Settings settings, const Point2& at, doub
       Color& c = picture.at(x, y);
       const Ray ray = world.camera().ray({(x + 0.5) / picture.width, 1 - (y + 0.5) / picture.height});
       c = world.closest(ray, Faces::both, uncounted) ? lerp(0.6, clamp01(c), Color(1)) : Color(1);
-    }
-  return {at, std::move(picture)};
-}
-
-/// Shades surfaces by how much they face the eye, without the light of the scene: of rooms with few samples
-/// by `path` there would be nothing but noise. Walls that hide the place `inside` are left out.
-DrawnPicture sketch(const World& world, const std::vector<std::uint32_t>& walls, const Vec3& inside,
-                    const Point2& at, double width, double height) {
-  Picture picture(static_cast<int>(width), static_cast<int>(height));
-  picture.pixels.assign(picture.pixels.size(), Color(1));
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
-      const Ray ray = world.camera().ray({(x + 0.5) / picture.width, 1 - (y + 0.5) / picture.height});
-      const auto found = closestShown(world, ray, walls, inside);
-      if (!found) continue;
-      const Real facing = std::abs(dot(world.surface(ray, *found).normal, ray.direction));
-      picture.at(x, y) = Color(0.6 + 0.4 * facing / length(ray.direction));
     }
   return {at, std::move(picture)};
 }

@@ -68,18 +68,22 @@ std::vector<Box3> drawnBoxes(const Scene& scene) {
   return boxes;
 }
 
-int divisionsOf(const Shape& shape) { return shape.type().ofObjects ? kDivisionsOfSolids : kDivisions; }
+int divisionsOf(const Shape& shape, double fineness) {
+  const int usual = shape.type().ofObjects ? kDivisionsOfSolids : kDivisions;
+  return std::max(4, static_cast<int>(std::lround(usual * fineness)));
+}
 
 /// How coarsely shapes were drawn, by their keywords.
 class DrawnShapes {
  public:
+  explicit DrawnShapes(double fineness) : fineness_(fineness) {}
   void note(const Shape& shape, int divisions, bool nothing) {
     const std::string kind(shape.keyword());
     if (shape.is<Mesh>()) return;
     if (nothing)
       ++missing_[kind];
-    else if (divisions < divisionsOf(shape))
-      coarse_.try_emplace(kind, divisions, divisionsOf(shape));
+    else if (const int wanted = divisionsOf(shape, fineness_); divisions < wanted)
+      coarse_.try_emplace(kind, divisions, wanted);
   }
   std::vector<Message> warnings(const std::string& file) const {
     Messages messages;
@@ -101,6 +105,7 @@ class DrawnShapes {
  private:
   std::map<std::string, std::pair<int, int>> coarse_;  // steps that were followed, and those of others
   std::map<std::string, int> missing_;
+  double fineness_;
 };
 
 /// Around those that have an end; with room to spare if some have none.
@@ -135,14 +140,15 @@ SceneModeler::Made SceneModeler::made(const Shape& shape, const Box3& within, st
     if (const Made* found = in(made_)) return kept.emplace_back(*found);
   }
   int followed = 0;
-  std::vector<SurfaceCorner> corners = tessellate(shape, divisionsOf(shape), within, &followed);
+  std::vector<SurfaceCorner> corners = tessellate(shape, divisionsOf(shape, fineness_), within, &followed);
   Made made{shape, std::make_shared<const std::vector<SurfaceCorner>>(std::move(corners)), followed};
   if (lasts) kept.push_back(made);
   return made;
 }
 
-SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled) {
+SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled, double fineness) {
   SceneModel model;
+  if (std::exchange(fineness_, fineness) != fineness) made_.clear();
   const Scene copies = given.uses.empty() ? Scene() : firstCopies(given, kMostDrawnCopies);
   const Scene& scene = given.uses.empty() ? given : copies;
   const std::vector<Box3> boxes = drawnBoxes(scene);
@@ -153,7 +159,7 @@ SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled) {
   }
 
   std::vector<Made> kept;
-  DrawnShapes drawn;
+  DrawnShapes drawn(fineness);
   for (std::uint32_t i = 0; i < scene.objects.size() && !(cancelled && cancelled()); ++i) {
     const Object& object = scene.objects[i];
     if (boxes[i].empty() || object.material >= scene.materials.size()) continue;

@@ -50,8 +50,9 @@ class SceneModeler {
  public:
   /// Models all objects. It leaves out those whose transform cannot be undone, as a render does, and those
   /// that frameOf() leaves out. Infinite objects are cut off some way around the others and the camera.
-  /// `cancelled`, if any, is asked after every object; then the rest is left out.
-  SceneModel model(const Scene& scene, const Cancelled& cancelled = {});
+  /// `cancelled`, if any, is asked after every object; then the rest is left out. `fineness`: curved surfaces
+  /// get so many times as many triangles along a side.
+  SceneModel model(const Scene& scene, const Cancelled& cancelled = {}, double fineness = 1);
 
  private:
   using Corners = std::shared_ptr<const std::vector<SurfaceCorner>>;
@@ -64,6 +65,7 @@ class SceneModeler {
   Made made(const Shape& shape, const Box3& within, std::vector<Made>& kept) const;
 
   std::vector<Made> made_;  // the shapes of the last model, each once
+  double fineness_ = 1;     // that they were made with
 };
 
 /// The target of the camera: a box around most of the points in the middle of its picture, those well outside

@@ -1,9 +1,11 @@
 // The buttons above the picture, and what stands in its place while there is none.
+#include <algorithm>
 #include <cmath>
 
 #include "app/view/picture_views.h"
 #include "studio/actions.h"
 #include "studio/picture/picture_parts.h"
+#include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
@@ -15,6 +17,33 @@ void roomFor(float wide) {
   if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
 }
 
+/// The list of views of the render: the picture, a heat map, or a pass.
+void choosePlane(Studio& studio) {
+  PictureView& view = studio.picture;
+  const std::string now = view.pass.empty() ? kPlaneNames[static_cast<int>(view.plane)] : view.pass;
+  const bool open = ImGui::BeginCombo("##plane", now.c_str());
+  if (open) {
+    for (std::size_t i = 0; i < std::size(kPlaneNames); ++i) {
+      const bool chosen = view.pass.empty() && view.plane == static_cast<FilmPlane>(i);
+      if (ImGui::Selectable(kPlaneNames[i], chosen)) {
+        view.plane = static_cast<FilmPlane>(i);
+        view.pass.clear();
+      }
+    }
+    if (const auto session = studio.workspace.render.session())
+      for (const std::string_view pass : passesToSee(session->settings()))
+        if (ImGui::Selectable(std::string(pass).c_str(), view.pass == pass)) view.pass = pass;
+    ImGui::EndCombo();
+  }
+  landmark("plane");
+  if (!open && ImGui::IsItemHovered()) {
+    besideItem();
+    ImGui::SetTooltip(
+        "the picture, how many rays each pixel has, how much noise is left in it, what denoise changed, or "
+        "one of the render's `passes`");
+  }
+}
+
 /// Switches for those who compare: the channel, and the histogram.
 void drawComparing(PictureView& view) {
   ImGui::SameLine();
@@ -22,7 +51,7 @@ void drawComparing(PictureView& view) {
   ImGui::SetNextItemWidth(characters(13));
   int channel = static_cast<int>(view.channel);
   if (ImGui::Combo("##channel", &channel, kChannelNames, static_cast<int>(std::size(kChannelNames))))
-    view.channel = static_cast<Channel>(channel);
+    view.channel = static_cast<ShownChannel>(channel);
   landmark("channel");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("all channels, or one of them as grey");
   ImGui::SameLine();
@@ -35,6 +64,7 @@ void drawComparing(PictureView& view) {
 }  // namespace
 
 void drawBar(Studio& studio) {
+  constexpr float kExposure = 12.5f, kPlane = 12, kOneLine = 58;  // characters
   PictureView& view = studio.picture;
   const bool open = studio.workspace.document.isOpen();
   const auto button = [&](const char* name, const char* tip, bool enabled) {
@@ -53,7 +83,9 @@ void drawBar(Studio& studio) {
     for (const Action& action : actions())
       if (std::string_view(action.name) == name) action.run(studio);
   };
-  if (button("Export...", "write the picture to a file (Ctrl+E)", !view.pictureTexture.empty()))
+  // Where it would push others to the next line, the menu has it.
+  if (ImGui::GetContentRegionAvail().x > characters(kOneLine) &&
+      button("Export...", "write the picture to a file (Ctrl+E)", !view.pictureTexture.empty()))
     runAction("Export picture...");
   if (button("Fit", "the whole picture (F)", true)) view.fit = true;
   if (button("1:1", "one pixel to one of the screen (A)", true)) {
@@ -61,31 +93,24 @@ void drawBar(Studio& studio) {
     view.zoom = 1;
   }
 
-  roomFor(characters(14));
-  ImGui::SetNextItemWidth(characters(14));
-  ImGui::SliderFloat("##exposure", &view.exposure, -6, 6,
-                     view.exposure == 0 ? "exposure 0" : "exposure %+.1f");
+  roomFor(characters(kExposure));
+  ImGui::SetNextItemWidth(characters(kExposure));
+  ImGui::DragFloat("##exposure", &view.exposure, 0.02f, -6, 6,
+                   view.exposure == 0 ? "exposure 0" : "exposure %+.1f");
   if (ImGui::IsItemHovered())
-    ImGui::SetTooltip("stops: powers of two; only what is shown, not what is saved\nright click: 0");
+    ImGui::SetTooltip("drag: stops, powers of two; only what is shown, not what is saved\nright click: 0");
   if (ImGui::IsItemClicked(1)) view.exposure = 0;
   ImGui::SameLine();
-  roomFor(characters(17));
-  ImGui::SetNextItemWidth(characters(17));
+  roomFor(characters(kPlane));
+  ImGui::SetNextItemWidth(characters(kPlane));
   std::optional<Way>& alone = studio.rays.pyramid.alone;
   if (alone) {
-    if (ImGui::Button("All ways", {characters(17), 0})) alone.reset();
+    if (ImGui::Button("All ways", {characters(kPlane), 0})) alone.reset();
     landmark("all ways");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to the whole picture, from a single strategy");
     return;
   }
-  int plane = static_cast<int>(view.plane);
-  if (ImGui::Combo("##plane", &plane, kPlaneNames, static_cast<int>(std::size(kPlaneNames))))
-    view.plane = static_cast<FilmPlane>(plane);
-  landmark("plane");
-  if (ImGui::IsItemHovered())
-    ImGui::SetTooltip(
-        "the picture, how many rays each pixel has, how much noise is left in it, or what denoise "
-        "changed");
+  choosePlane(studio);
   if (studio.workspace.reference() || !isShown(studio, "Rays")) drawComparing(view);
   if (!studio.workspace.reference()) {
     ImGui::SameLine();
@@ -102,8 +127,8 @@ void drawBar(Studio& studio) {
   if (view.view == View::difference || view.view == View::falseColour) {
     ImGui::SameLine();
     ImGui::SetNextItemWidth(characters(14));
-    ImGui::SliderFloat("##magnify", &view.magnify, 1, 255, "x %.0f", ImGuiSliderFlags_Logarithmic);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("by which differences are magnified");
+    ImGui::DragFloat("##magnify", &view.magnify, std::max(0.1f, view.magnify / 100), 1, 255, "x %.0f");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("drag: by which differences are magnified");
   }
 }
 

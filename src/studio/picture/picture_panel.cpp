@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <string_view>
 
 #include "app/view/picture_views.h"
 #include "studio/panels.h"
@@ -22,7 +23,10 @@ constexpr float kGap = 6;               // between two pictures side by side
 void refreshPlane(Studio& studio, bool pictureChanged) {
   PictureView& view = studio.picture;
   const auto session = studio.workspace.render.session();
-  if (!session || (!pictureChanged && view.planeShown == view.plane)) return;
+  const std::vector<std::string_view> passes =
+      session ? passesToSee(session->settings()) : std::vector<std::string_view>{};
+  if (std::find(passes.begin(), passes.end(), view.pass) == passes.end()) view.pass.clear();
+  if (!session || (!pictureChanged && view.planeShown == view.plane && view.passShown == view.pass)) return;
   const Film& film = session->film();
   if (pictureChanged) {
     const std::uint64_t number = studio.workspace.render.state().number;
@@ -32,10 +36,13 @@ void refreshPlane(Studio& studio, bool pictureChanged) {
     if (view.convergence.judged) view.noise.push_back(static_cast<float>(255 * view.convergence.error));
   }
   view.planeShown = view.plane;
-  if (view.plane == FilmPlane::picture || film.width() != view.shown.width ||
+  view.passShown = view.pass;
+  if ((view.plane == FilmPlane::picture && view.pass.empty()) || film.width() != view.shown.width ||
       film.height() != view.shown.height)
     return;
-  const PlaneView plane = planeView(view.plane, film, view.shown);
+  const PlaneView plane = view.pass.empty()
+                              ? planeView(view.plane, film, view.shown)
+                              : passView(view.pass, film, session->settings(), session->names(), view.shown);
   view.planeTexture.set(toBytes(plane.colours, Rounding::nearest));
   view.planeLegend = plane.legend;
 }
@@ -71,17 +78,25 @@ void refresh(Studio& studio) {
   if (reference && referenceChanged) view.view = View::swipe;
   if (reference && (referenceChanged || toneChanged))
     view.referenceTexture.set(exposed(channelOf(*reference, view.channel), view.exposure, settings.rounding));
+  if (!reference) view.reference = {};
+  if (reference && view.shown.width > 0 && (referenceChanged || !sameSize(view.reference, view.shown)))
+    view.reference = sameSize(*reference, view.shown)
+                         ? *reference
+                         : resampled(*reference, view.shown.width, view.shown.height);
   const bool compares = view.view == View::difference || view.view == View::falseColour;
-  if (compares && reference && sameSize(view.shown, *reference) &&
+  if (compares && reference && sameSize(view.shown, view.reference) &&
       (pictureChanged || toneChanged || referenceChanged || view.differenceView != view.view ||
        view.differenceMagnify != view.magnify)) {
     const bool colours = view.view == View::falseColour;
     const Picture picture = workspace.referenceIsLinear() ? view.shown : clamped(view.levels);
-    const Picture seen = channelOf(picture, view.channel), other = channelOf(*reference, view.channel);
+    const Picture seen = channelOf(picture, view.channel), other = channelOf(view.reference, view.channel);
     const Picture difference =
         colours ? falseColours(seen, other, view.magnify) : differences(seen, other, view.magnify);
     view.difference = differences(seen, other, 1);
     view.errors = differenceText(seen, other);
+    if (!sameSize(*reference, view.shown))
+      view.errors += "; the reference was resampled from " + std::to_string(reference->width) + " x " +
+                     std::to_string(reference->height);
     view.differenceTexture.set(toBytes(difference, Rounding::nearest));
     view.differenceView = view.view;
     view.differenceMagnify = view.magnify;
@@ -122,15 +137,30 @@ void pictureIn(const FrameArea& frame, const Texture& texture) {
                                        {frame.low.x + frame.size.x, frame.low.y + frame.size.y});
 }
 
-/// A text on a dark plate, so that it can be read on any picture, in lines of at most that width.
-void caption(ImVec2 at, const char* text, float most) {
+/// The words in lines of at most that width: Dear ImGui would break a number at its point.
+std::string inLines(std::string_view words, float most) {
+  std::string lines, line;
+  while (!words.empty()) {
+    const std::size_t space = std::min(words.find(' '), words.size());
+    const std::string word(words.substr(0, space)), longer = line.empty() ? word : line + " " + word;
+    words.remove_prefix(std::min(space + 1, words.size()));
+    const bool fits = line.empty() || ImGui::CalcTextSize(longer.c_str()).x <= most;
+    if (!fits) lines += line + "\n";
+    line = fits ? longer : word;
+  }
+  return lines + line;
+}
+
+/// A text on a dark plate, so that it can be read on any picture, in lines of at most that width. Where it
+/// ends.
+float caption(ImVec2 at, const char* text, float most) {
   const ImVec2 pad = ImGui::GetStyle().FramePadding;
-  const float room = std::max(most - 2 * pad.x, characters(12));
-  const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, room);
+  const std::string lines = inLines(text, std::max(most - 2 * pad.x, characters(12)));
+  const ImVec2 size = ImGui::CalcTextSize(lines.c_str());
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + size.x + 2 * pad.x, at.y + size.y + 2 * pad.y}, IM_COL32(0, 0, 0, 170), 4);
-  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + pad.x, at.y + pad.y},
-               IM_COL32(255, 255, 255, 255), text, nullptr, room);
+  list.AddText({at.x + pad.x, at.y + pad.y}, IM_COL32(255, 255, 255, 255), lines.c_str());
+  return at.y + size.y + 2 * pad.y;
 }
 
 /// The values of each pixel in it, where the picture is magnified so much that they have room.
@@ -173,8 +203,8 @@ void drawScale(ImVec2 low, ImVec2 high, float magnify) {
   constexpr int kSteps = 5;  // steps of falseColour()
   const float line = ImGui::GetTextLineHeight(), bar = line, pad = ImGui::GetStyle().FramePadding.x;
   const float wide = bar + 3 * pad + ImGui::CalcTextSize("0.0000").x,
-              top = std::max(low.y + 3 * line, (low.y + high.y) / 2 - 6 * line),
-              bottom = std::min(high.y - 2 * line, (low.y + high.y) / 2 + 6 * line);
+              top = std::max(low.y + 1.5f * line, (low.y + high.y) / 2 - 6 * line),
+              bottom = std::min(high.y - 2 * line, top + 12 * line);
   if (bottom < top + kSteps * line) return;
   const ImVec2 at{high.x - wide - 8, top};
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -268,7 +298,7 @@ void drawChainWay(const Studio& studio, const FrameArea& frame, int width, int h
 InPlaceOfPicture inPlaceOfPicture(const Studio& studio) {
   const PictureView& view = studio.picture;
   if (InPlaceOfPicture way = wayAlone(studio); !way.caption.empty()) return way;
-  if (view.plane == FilmPlane::picture || view.planeTexture.empty()) return {};
+  if ((view.plane == FilmPlane::picture && view.pass.empty()) || view.planeTexture.empty()) return {};
   return {&view.planeTexture, view.planeLegend};
 }
 
@@ -291,9 +321,9 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     list.PopClipRect();
   };
   const ImVec2 end{canvas.x + area.x, canvas.y + area.y};
-  const bool comparable = reference && sameSize(*reference, view.shown);
+  const bool comparable = reference && sameSize(view.reference, view.shown);
   const bool differs = mode == View::difference || mode == View::falseColour;
-  if (mode == View::picture || (differs && !comparable))
+  if (mode == View::picture)
     clipped(canvas, end, frame, other.texture ? *other.texture : view.pictureTexture);
   if (mode == View::reference) clipped(canvas, end, frame, view.referenceTexture);
   if (two) {
@@ -311,16 +341,18 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   }
   if (differs && comparable) clipped(canvas, end, frame, view.differenceTexture);
   const ImVec2 corner{canvas.x + 8, canvas.y + 8};
+  float clear = canvas.y;  // below the caption
   if (!other.caption.empty()) {
     caption(corner, other.caption.c_str(), area.x - 16);
     landmark("caption");
-  } else if (mode != View::picture && !comparable) {
+  } else if (differs && !comparable) {
     caption(corner,
-            ("the reference has another size: " + std::to_string(reference->width) + " x " +
-             std::to_string(reference->height) + " beside " + std::to_string(width) + " x " +
+            ("not compared: the reference has another shape, " + std::to_string(reference->width) + " x " +
+             std::to_string(reference->height) + "; the picture has " + std::to_string(width) + " x " +
              std::to_string(height))
                 .c_str(),
             area.x - 16);
+    landmark("caption");
   } else if (two || mode == View::swipe) {
     caption(corner, "picture", area.x);
     const float wide = ImGui::CalcTextSize("reference").x + 2 * ImGui::GetStyle().FramePadding.x;
@@ -328,22 +360,22 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   } else if (mode != View::picture) {
     const std::string text =
         std::string(kViewNames[static_cast<int>(mode)]) + (differs ? ": " + view.errors : std::string());
-    caption(corner, text.c_str(), area.x - 16);
+    clear = caption(corner, text.c_str(), area.x - 16);
     landmark("caption");
   }
   const Picture& linear = studio.workspace.referenceIsLinear() || !reference ? view.shown : view.levels;
   if (!other.texture) {
     if (mode == View::reference) {
-      numbersInPixels(studio, frame, canvas, end, *reference);
+      numbersInPixels(studio, frame, canvas, end, comparable ? view.reference : *reference);
     } else if (differs && comparable) {
       numbersInPixels(studio, frame, canvas, end, view.difference);
     } else if (mode != View::swipe) {
       numbersInPixels(studio, frame, canvas, two ? ImVec2(canvas.x + part.x, end.y) : end, linear);
       if (two && comparable)
-        numbersInPixels(studio, second, {canvas.x + part.x + kGap, canvas.y}, end, *reference);
+        numbersInPixels(studio, second, {canvas.x + part.x + kGap, canvas.y}, end, view.reference);
     }
   }
-  if (mode == View::falseColour && comparable) drawScale(canvas, end, view.magnify);
+  if (mode == View::falseColour && comparable) drawScale({canvas.x, clear}, end, view.magnify);
   if (view.histogramShown) drawHistogram(studio, canvas, end);
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;

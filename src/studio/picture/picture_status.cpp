@@ -72,20 +72,25 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
     ImGui::Text("%d, %d", x, y);
     const Color c = view.levels.at(x, y);
     const Rounding rounding = workspace.document.settings().rounding;
-    ImGui::SameLine(0, characters(3));
+    ImGui::SameLine(0, characters(2));
     const Color clamped = clamp01(c);
-    const float side = ImGui::GetFontSize();
+    const float side = ImGui::GetFontSize(), line = ImGui::GetCursorPosY();
+    ImGui::SetCursorPosY(line + ImGui::GetStyle().FramePadding.y);
     ImGui::ColorButton(
         "##colour",
         {static_cast<float>(clamped.r), static_cast<float>(clamped.g), static_cast<float>(clamped.b), 1},
         ImGuiColorEditFlags_NoTooltip, {side, side});
     ImGui::SameLine();
+    ImGui::SetCursorPosY(line);
+    ImGui::AlignTextToFramePadding();
     const char* ofWhat = studio.rays.pyramid.alone ? "all ways  " : "";
-    ImGui::TextUnformatted((ofWhat + pixelText(view.shown.at(x, y), c, rounding)).c_str());
-    const auto& reference = workspace.reference();
-    if (reference && sameSize(*reference, view.shown)) {
-      ImGui::TextDisabled("reference  %s",
-                          pixelText(reference->at(x, y), reference->at(x, y), rounding).c_str());
+    std::string text = ofWhat + pixelText(view.shown.at(x, y), c, rounding);
+    if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)
+      text.resize(text.find("   ("));  // the levels
+    ImGui::TextUnformatted(text.c_str());
+    if (workspace.reference() && sameSize(view.reference, view.shown)) {
+      const Color& there = view.reference.at(x, y);
+      ImGui::TextDisabled("reference  %s", pixelText(there, there, rounding).c_str());
     }
   } else if (workspace.saving() || workspace.reading()) {
     ImGui::TextDisabled(workspace.saving() ? "writing the file" : "reading the file");

@@ -19,14 +19,15 @@ inline constexpr const char* kViewNames[] = {"Picture", "Reference",  "Side by s
 struct PictureView {
   View view = View::picture;
   FilmPlane plane = FilmPlane::picture;  ///< what of the render is seen
+  std::string pass{};                    ///< a pass of the render that is seen instead; "" if none is
   bool fit = true;
-  float zoom = 1;                       ///< screen pixels per pixel of the picture
-  double centreX = 0.5, centreY = 0.5;  ///< what is in the middle, in shares of the picture
-  float exposure = 0;                   ///< stops
-  float swipe = 0.5f;                   ///< share that shows the picture
-  float magnify = 8;                    ///< magnify of the difference
-  PixelChoice pixel;                    ///< that was clicked
-  Channel channel = Channel::all;       ///< what of the pictures is seen
+  float zoom = 1;                            ///< screen pixels per pixel of the picture
+  double centreX = 0.5, centreY = 0.5;       ///< what is in the middle, in shares of the picture
+  float exposure = 0;                        ///< stops
+  float swipe = 0.5f;                        ///< share that shows the picture
+  float magnify = 8;                         ///< magnify of the difference
+  PixelChoice pixel;                         ///< that was clicked
+  ShownChannel channel = ShownChannel::all;  ///< what of the pictures is seen
   bool histogramShown = false;
 
   // The contents of the textures.
@@ -41,9 +42,10 @@ struct PictureView {
   float exposed = 0;
   Development development;
   Rounding rounding = Rounding::truncate;
-  Channel channelShown = Channel::all;
+  ShownChannel channelShown = ShownChannel::all;
   Histogram histogram;   ///< histogram of the levels
   std::string errors{};  ///< how far the picture and the reference are apart
+  Picture reference{};   ///< the reference, with as many pixels as the picture; empty if its shape differs
   Picture difference{};  ///< difference of the two, not magnified
   View differenceView = View::picture;
   float differenceMagnify = 0;
@@ -51,6 +53,7 @@ struct PictureView {
   Texture planeTexture;     ///< where another plane than the picture is seen
   std::string planeLegend;  ///< what its colours mean
   FilmPlane planeShown = FilmPlane::picture;
+  std::string passShown{};
   Convergence convergence;    ///< convergence of the shown picture
   std::vector<float> noise;   ///< levels, one for each look at the render that continues
   std::uint64_t noiseOf = 0;  ///< the render's number

@@ -64,7 +64,7 @@ void drawDifference(Studio& studio, const TracedPixel& traced) {
       if (ImGui::IsItemHovered() && pair.b >= 0) view.hovered = pair.b;
       if (indent > 0) ImGui::Unindent(indent);
       ImGui::TableNextColumn();
-      cutText(metBy(pixel, index));
+      cutText(metBy(pixel.tree(), pixel.scene(), index));
       ImGui::TableNextColumn();
       ImGui::PushStyleColor(ImGuiCol_Text, studio.palette().changed);
       if (pair.differs) cutText(pair.what);

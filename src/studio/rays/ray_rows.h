@@ -16,10 +16,8 @@ inline constexpr ImGuiTableFlags kRayTable = ImGuiTableFlags_RowBg | ImGuiTableF
 
 ImVec4 rayColour(const Studio& studio, const TracedPixel& pixel, int ray);
 const char* rayName(const TracedPixel& pixel, int ray);
-/// The object, light or medium that the ray came to; "" if none.
-std::string metBy(const TracedPixel& pixel, int ray);
 /// The heads of the table's columns, with help.
-void columnHeads(std::initializer_list<const char*> help);
+void columnHeads(std::initializer_list<const char*> help, int most = 64);
 /// A text that may be cut: the cursor on it shows the whole.
 void cutText(const std::string& text);
 

@@ -8,9 +8,11 @@
 #include <filesystem>
 
 #include "app/view/ray_drawing.h"
+#include "app/view/ray_story.h"
 #include "base/files/file.h"
 #include "image/codecs/codec.h"
 #include "scene/integrators.h"
+#include "scene/picture_size.h"
 #include "studio/panels.h"
 #include "studio/rays/ray_rows.h"
 #include "studio/space/rays_view.h"
@@ -22,23 +24,28 @@ namespace {
 void drawHead(Studio& studio, const TracedPixel& pixel) {
   RaysView& view = studio.rays;
   PixelInspector& inspector = studio.workspace.inspector;
-  ImGui::AlignTextToFramePadding();
-  ImGui::Text("pixel %d, %d", pixel.x, pixel.y);
   const auto samples = static_cast<int>(pixel.explanation.samples.size());
-  if (samples > 1) {
+  const bool roomy = ImGui::GetContentRegionAvail().x >= characters(60);
+  if (samples > 1 || roomy) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::Text("pixel %d, %d", pixel.x, pixel.y);
     ImGui::SameLine();
-    ImGui::SetNextItemWidth(characters(18));
-    ImGui::SliderInt("##sample", &view.sample, 0, samples - 1, "sample %d");
   }
-  ImGui::SameLine();
+  if (samples > 1) {
+    ImGui::SetNextItemWidth(characters(18));
+    ImGui::DragInt("##sample", &view.sample, 0.1f, 0, samples - 1, "sample %d", ImGuiSliderFlags_AlwaysClamp);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("drag: the samples of the pixel, from 0");
+    if (roomy) ImGui::SameLine();
+  }
   if (ImGui::Button(inspector.pinned() ? "Unpin" : "Pin")) inspector.pin(!inspector.pinned());
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip(
-        "keep these rays, then click another pixel or change an option: the tab Difference compares");
+        "keep the rays of pixel %d, %d, then click another pixel or change an option: the tab Difference "
+        "compares",
+        pixel.x, pixel.y);
 
   const auto count = static_cast<int>(pixel.tree().nodes.size());
   ImGui::SameLine();
-  if (samples > 1 || ImGui::GetContentRegionAvail().x < characters(46)) ImGui::NewLine();
   if (ImGui::Button(view.playsAt >= 0 ? "Stop" : "Play")) playRays(studio);
   landmark("play");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("the rays one after the other, in the order of tracing (P)");
@@ -50,13 +57,13 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("the next ray in the order of tracing");
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   int step = view.step < 0 ? count : view.step;
-  char format[32];
+  char format[48];
   std::snprintf(format, sizeof format, view.step < 0 ? "rays: %d, all" : "ray %%d of %d", count);
   const float all = ImGui::CalcTextSize("All").x + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextItemWidth(
       std::max(characters(10), ImGui::GetContentRegionAvail().x - all - ImGui::GetStyle().ItemSpacing.x));
   const int before = step;
-  if (ImGui::SliderInt("##step", &step, 1, count, format)) {
+  if (ImGui::DragInt("##step", &step, 0.1f, 1, count, format, ImGuiSliderFlags_AlwaysClamp)) {
     view.step = before;
     stepRays(studio, step - before);
   }
@@ -151,6 +158,22 @@ void saveRays(Studio& studio, const std::string& file) {
       writePicture(file, toPicture(drawing), Rounding::nearest);
     else
       writeFile(file, toSvg(drawing));
+  });
+}
+
+void saveStory(Studio& studio, const std::string& file) {
+  const TracedPixel& pixel = *shownPixel(studio);
+  constexpr Real kAspect = 1.4;
+  const Document& document = studio.workspace.document;
+  const Camera camera = studio.rays.fromCamera ? cameraFor(document.scene(), document.settings())
+                                               : cameraOf(studio.rays.orbit.frame(kAspect), kAspect);
+  studio.workspace.saveBy(file, [file, pixel, camera] {
+    const RayStory story(pixel, camera);
+    const std::string kind = std::filesystem::path(file).extension().string();
+    if (kind == ".apng") return writeFile(file, filmOf(story));
+    const Drawing drawing = story.after(story.rays());
+    if (kind == ".png") return writePicture(file, toPicture(drawing), Rounding::nearest);
+    writeFile(file, toSvg(drawing));
   });
 }
 
@@ -264,8 +287,10 @@ void drawRays(Studio& studio) {
   const PixelInspector& inspector = studio.workspace.inspector;
   const TracedPixel* pixel = shownPixel(studio);
   const float height = ImGui::GetContentRegionAvail().y;
+  const bool low = height < 30 * ImGui::GetTextLineHeight();  // then the tree needs every line
   ImGui::BeginChild("space",
                     {0, height * (!pixel              ? 0.88f
+                                  : low               ? 0.34f
                                   : view.pyramid.open ? 0.38f
                                                       : 0.45f)},
                     false, ImGuiWindowFlags_NoScrollWithMouse);

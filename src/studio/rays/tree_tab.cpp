@@ -9,7 +9,9 @@
 namespace trace::studio {
 namespace {
 
-constexpr int kMostIndented = 12;  // levels: deeper rays stand at the same margin
+constexpr int kMostIndented = 12;       // levels: deeper rays stand at the same margin
+constexpr float kWordsInFour = 48;      // characters that four columns need
+constexpr float kRowsWithNumbers = 11;  // rows of a table that leaves room for a line below it
 
 /// Behind the row of the ray at fault.
 ImU32 faultColour(const Studio& studio) {
@@ -29,15 +31,18 @@ float indentOf(const TracedPixel& pixel, float column) {
 void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<int>& rows, float below) {
   RaysView& view = studio.rays;
   const std::vector<RayNode>& nodes = pixel.tree().nodes;
-  if (!ImGui::BeginTable("tree", 4, kRayTable, {0, -below})) return;
+  // Where its sentences would be cut to a word, the last column goes: the row's tooltip has them.
+  const bool ends = ImGui::GetContentRegionAvail().x >= characters(kWordsInFour);
+  if (!ImGui::BeginTable(ends ? "tree" : "narrow tree", ends ? 4 : 3, kRayTable, {0, -below})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, 0.4f);
-  ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, 0.27f);
-  ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(9));
-  ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.33f);
+  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, ends ? 0.4f : 0.55f);
+  ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, ends ? 0.27f : 0.45f);
+  ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(ends ? 9 : 7));
+  if (ends) ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.33f);
   columnHeads({"its kind and its secondary rays", "the object, light or medium that it came to",
                "the largest channel of its contribution to the pixel: its radiance times its weight there",
-               "why it ended, or how it continues"});
+               "why it ended, or how it continues"},
+              ends ? 4 : 3);
   if (const auto found = std::find(rows.begin(), rows.end(), view.scrollTo); found != rows.end()) {
     const float height = ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y;
     const float top = static_cast<float>(found - rows.begin()) * height, room = ImGui::GetWindowHeight();
@@ -85,16 +90,19 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
       if (overRow || ImGui::IsItemHovered()) {
         view.hovered = i;
         if (ImGui::IsMouseDoubleClicked(0)) studio.raysTab = "Ray";
+        if (!ends) ImGui::SetTooltip("%s", sentence(node, pixel.scene()).c_str());
       }
       ImGui::TableNextColumn();
-      cutText(metBy(pixel, i));
+      cutText(metBy(pixel.tree(), pixel.scene(), i));
       ImGui::TableNextColumn();
       if (node.kind != RayKind::shadow && node.kind != RayKind::light) {
         ImGui::Text("%.4f", share(node));
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", channels(node.weight * node.radiance).c_str());
       }
-      ImGui::TableNextColumn();
-      cutText(sentence(node, pixel.scene()));
+      if (ends) {
+        ImGui::TableNextColumn();
+        cutText(sentence(node, pixel.scene()));
+      }
       ImGui::PopID();
     }
   ImGui::EndTable();
@@ -106,16 +114,18 @@ void drawTree(Studio& studio, const TracedPixel& pixel) {
   RaysView& view = studio.rays;
   const std::vector<RayNode>& nodes = pixel.tree().nodes;
   std::vector<int> rows;
-  int below = -1;  // the level of a closed node whose children are passed over
+  int closed = -1;  // the level of a closed node whose children are passed over
   for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
     const auto n = static_cast<std::size_t>(i);
-    if (below >= 0 && pixel.level[n] > below) continue;
-    below = view.closed[n] ? pixel.level[n] : -1;
+    if (closed >= 0 && pixel.level[n] > closed) continue;
+    closed = view.closed[n] ? pixel.level[n] : -1;
     if (view.inStep(i)) rows.push_back(i);
   }
   const bool any = view.selected >= 0;
-  drawTreeTable(studio, pixel, rows, any ? ImGui::GetFrameHeightWithSpacing() : 0);
-  if (!any) return;
+  const bool below =
+      any && ImGui::GetContentRegionAvail().y > kRowsWithNumbers * ImGui::GetTextLineHeightWithSpacing();
+  drawTreeTable(studio, pixel, rows, below ? ImGui::GetFrameHeightWithSpacing() : 0);
+  if (!below) return;
   if (ImGui::Button("Numbers")) studio.raysTab = "Ray";
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("all that is known of the selected ray (double click on its row)");

@@ -3,10 +3,11 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 
+#include "app/view/ray_story.h"
 #include "studio/panels.h"
 #include "studio/rays/ray_rows.h"
 #include "studio/space/rays_view.h"
@@ -16,12 +17,16 @@ namespace trace::studio {
 namespace {
 
 /// As the picture would show the light.
-ImVec4 swatchColour(const Color& c, Real exposure) {
-  const auto level = [&](Real x) {
-    const Real shown = std::clamp(x * std::exp2(exposure), 0.0, 1.0);
-    return static_cast<float>(shown <= 0.0031308 ? 12.92 * shown : 1.055 * std::pow(shown, 1 / 2.4) - 0.055);
-  };
-  return {level(c.r), level(c.g), level(c.b), 1};
+ImVec4 swatchColour(const Color& light, const Settings& settings) {
+  const Color c = shownColour(light, settings);
+  return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1};
+}
+
+/// Without what the tree says: that it is light, and its place.
+std::string summandName(const WhySummand& term) {
+  constexpr std::string_view kLight = "light ";
+  const std::string name = term.name.substr(0, term.name.find(" ("));
+  return name.starts_with(kLight) ? name.substr(kLight.size()) : name;
 }
 
 /// On this line if it fits, else on the next.
@@ -57,12 +62,11 @@ void drawSum(Studio& studio, const TracedPixel& pixel) {
   const std::vector<WhySummand>& sum = pixel.why.sum;
   if (sum.empty()) return;
   const Settings& settings = pixel.session->settings();
-  const Real exposure = settings.exposure + pixel.session->measuredExposure();
   const int step = studio.rays.step;
   const float side = ImGui::GetTextLineHeight();
   const auto swatch = [&](const char* id, const std::string& name, const Color& color) {
     const bool pressed =
-        ImGui::ColorButton(id, swatchColour(color, exposure),
+        ImGui::ColorButton(id, swatchColour(color, settings),
                            ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {side, side});
     const bool over = ImGui::IsItemHovered();
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
@@ -75,8 +79,7 @@ void drawSum(Studio& studio, const TracedPixel& pixel) {
   swatch("##sum", "=", step < 0 || step >= static_cast<int>(studio.rays.rays) ? whole : sumAfter(sum, step));
   landmark("sum");
   for (std::size_t i = 0; i < sum.size(); ++i) {
-    const std::string name = sum[i].name.substr(0, sum[i].name.find(" (")) +  // its place is in the tree
-                             (i + 1 < sum.size() ? "  +" : "");
+    const std::string name = summandName(sum[i]) + (i + 1 < sum.size() ? "  +" : "");
     beside(gaps + ImGui::CalcTextSize(name.c_str()).x);
     ImGui::PushID(static_cast<int>(i));
     constexpr float kToCome = 0.3f;
@@ -111,8 +114,7 @@ void drawWhy(Studio& studio, const TracedPixel& pixel) {
   ImGui::PopTextWrapPos();
   landmark("why");
   if (ImGui::IsItemClicked() && why.ray >= 0) studio.rays.selected = studio.rays.scrollTo = why.ray;
-  const bool roomy = ImGui::GetWindowHeight() > 26 * ImGui::GetTextLineHeightWithSpacing();
-  if (roomy && !studio.rays.pyramid.open) drawSum(studio, pixel);
+  if (!studio.rays.pyramid.open) drawSum(studio, pixel);
   drawCures(studio, pixel);
 }
 

@@ -21,7 +21,8 @@
 namespace trace::studio {
 namespace {
 
-/// A slider covers ranges up to this; wider ones are dragged, for they have no useful scale.
+/// A slider covers ranges up to this, and whole numbers are counted; wider ranges are dragged, for they have
+/// no useful scale.
 constexpr double kMostSlider = 10000;
 
 std::string rangeText(const Option& option) {
@@ -78,10 +79,10 @@ std::optional<std::string> editInteger(const Option& option, const std::string& 
   NumberLook look{option.least, option.most, "%.0f" + unitSuffix(option, number)};
   look.name = option.name;
   look.leastWord = leastWordFor(option);
-  if (option.most <= kMostSlider)
-    look.logarithmic = true;
-  else
-    look.speed = std::max(1.0f, static_cast<float>(number) / 200);
+  look.counted = option.most <= kMostSlider;
+  constexpr float kPixels = 12;  // that the mouse moves for one step
+  look.speed = look.counted ? std::max(1 / kPixels, static_cast<float>(number) / 200)
+                            : std::max(1.0f, static_cast<float>(number) / 200);
   if (!editNumber("##value", number, look)) return {};
   return std::to_string(number);
 }
@@ -127,7 +128,7 @@ std::optional<std::string> editChoices(const Option& option, const std::string& 
 
 std::optional<std::string> editRegion(const std::string& value) {
   std::string text = shownRegion(value);
-  if (!editText("##value", text, "the whole picture")) return {};
+  if (!editText("##value", text, "all")) return {};
   return typedRegion(text);
 }
 
@@ -220,13 +221,13 @@ void row(Studio& studio, const Option& option, const Settings& defaults, const S
   if (changed) ImGui::PushStyleColor(ImGuiCol_Text, studio.palette().changed);
   rowName(name);
   if (changed) ImGui::PopStyleColor();
-  if (ImGui::IsItemHovered()) tooltip(studio, option);
+  if (ImGui::IsItemHovered()) besidePanel(), tooltip(studio, option);
   ImGui::TableNextColumn();
   const float resetWidth = ImGui::GetFrameHeight();
   ImGui::SetNextItemWidth(-resetWidth - ImGui::GetStyle().ItemInnerSpacing.x);
   const std::optional<std::string> given = edit(studio, option, value);
   landmark("option " + name);
-  if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) tooltip(studio, option);
+  if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) besidePanel(), tooltip(studio, option);
   const unsigned id = ImGui::GetID("edit");
   bool reset = false;
   if (here) {
@@ -246,7 +247,7 @@ void row(Studio& studio, const Option& option, const Settings& defaults, const S
 void drawFrequentOptions(Studio& studio) {
   constexpr std::string_view kFrequent[] = {"width", "spp", "depth", "integrator", "light-samples"};
   const Settings now = studio.workspace.chosenSettings();
-  const float wide = characters(11), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const float wide = characters(13), gap = ImGui::GetStyle().ItemInnerSpacing.x;
   const auto beside = [](float width) {
     if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
   };

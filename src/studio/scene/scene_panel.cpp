@@ -11,14 +11,11 @@
 #include "app/editing/placing.h"
 #include "app/editing/scene_changes.h"
 #include "app/editing/typed_file.h"
-#include "app/view/scene_model.h"
 #include "base/files/file.h"
 #include "base/text.h"
 #include "geometry/mesh/mesh.h"
-#include "geometry/mesh/tessellate.h"
-#include "render/world/hit.h"
-#include "scene/picture_size.h"
 #include "studio/panels.h"
+#include "studio/scene/additions_popup.h"
 #include "studio/scene/object_editor.h"
 #include "studio/scene/selection.h"
 #include "studio/widgets/field_editor.h"
@@ -29,12 +26,6 @@ namespace trace::studio {
 namespace {
 
 using Selected = Studio::Selected;
-
-Material newMaterial() {
-  Phong grey;
-  grey.diffuse = Color(0.7);
-  return {"", grey, {}};
-}
 
 /// One step, however long the widget is held; GetID() tells widgets apart. apply(Scene&) makes the change.
 template <class Apply>
@@ -87,61 +78,6 @@ void branch(Studio& studio, Selected kind, const char* title, std::size_t count,
     for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
       entry(studio, kind, static_cast<std::size_t>(i), name(static_cast<std::size_t>(i)));
   ImGui::TreePop();
-}
-
-/// On what the camera looks at.
-Affine inSight(const Studio& studio, const Shape& shape) {
-  const auto session = studio.workspace.render.session();
-  if (!session) return {};
-  const World& world = session->world();
-  const Camera& camera = session->scene().camera;
-  const CameraFrame view =
-      frame(cameraFor(session->scene(), session->settings()), session->settings().cameraAxes);
-  const Ray ray = world.camera().ray({0.5, 0.5});
-  Statistics statistics;
-  std::optional<SurfacePoint> there;
-  if (const auto found = world.closest(ray, Faces::both, statistics)) there = Hit(world, ray, *found).surface;
-  constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
-  const Box3 all = frameOf(session->scene());
-  const Real ahead = all.empty() ? 5 : std::max(length(all.center() - view.eye), 1e-30);
-  return placedInSight(drawnBounds(shape, kEverywhere), view, camera.updir, there, ahead);
-}
-
-void addMenu(Studio& studio) {
-  if (ImGui::Button("Add...")) ImGui::OpenPopup("add");
-  if (!ImGui::BeginPopup("add")) return;
-  const auto add = [&](Selected kind, const std::string& what, auto&& apply) {
-    change(studio, "add " + what, apply);
-    const Scene& scene = studio.workspace.document.scene();
-    studio.select(kind, (kind == Selected::object  ? scene.objects.size()
-                         : kind == Selected::light ? scene.lights.size()
-                                                   : scene.materials.size()) -
-                            1);
-  };
-  ImGui::TextDisabled("Objects");
-  shapeMenu([&](Shape shape) {
-    add(Selected::object, nameOf("", shape), [&](Scene& scene) {
-      if (scene.materials.empty()) scene.materials.push_back(newMaterial());
-      scene.objects.push_back({"", shape, inSight(studio, shape), 0, {}});
-    });
-  });
-  ImGui::Separator();
-  ImGui::TextDisabled("Lights");
-  for (const LightType& type : lightTypes()) {
-    const std::string keyword(type.keyword);
-    if (ImGui::MenuItem(keyword.c_str()))
-      add(Selected::light, keyword, [&](Scene& scene) {
-        Light light(type);
-        if (Color* color = editableValue<Color>(light, "color")) *color = Color(1);
-        if (Vec3* position = editableValue<Vec3>(light, "position")) *position = scene.camera.position;
-        scene.lights.push_back({light, {}});
-      });
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(type.help).c_str());
-  }
-  ImGui::Separator();
-  if (ImGui::MenuItem("material"))
-    add(Selected::material, "material", [](Scene& scene) { scene.materials.push_back(newMaterial()); });
-  ImGui::EndPopup();
 }
 
 // --- what is selected ---------------------------------------------------------------------------------
@@ -323,7 +259,7 @@ void chooseFieldsFile(Studio& studio, const FileWish& wish) {
 void drawScene(Studio& studio) {
   const Document& document = studio.workspace.document;
   if (!document.isOpen()) return ImGui::TextDisabled("no scene is open");
-  addMenu(studio);
+  drawAdditions(studio);
   const auto step = [](const char* name, const std::string& what, auto&& run) {
     ImGui::SameLine();
     ImGui::BeginDisabled(what.empty());

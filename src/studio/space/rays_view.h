@@ -118,8 +118,9 @@ struct RaysView {
   float opacity = 1;  ///< opacity of surfaces
   bool flat = false, materialsShown = true, litByScene = false;
   bool boundsShown = false, normalsShown = false, lightsShown = true, cameraShown = true, axesShown = false;
-  bool raysFramed = true;  ///< a click brings the pixel's rays into sight
-  bool frameDue = false;   ///< the rays that are shown next are
+  double fineness = 1, modelFineness = 1;  ///< fineness of triangles: asked for, and shown
+  bool raysFramed = true;                  ///< a click brings the pixel's rays into sight
+  bool frameDue = false;                   ///< the rays that are shown next are
   bool pictureShown = true, hitNormalsShown = true, pinnedShown = true, hierarchyShown = true;
   std::array<bool, kRayLooks.size()> lookHidden{};
 
@@ -144,6 +145,9 @@ void stepRays(Studio& studio, int rays);
 void playRays(Studio& studio);
 /// Writes a drawing of the pixel's rays to a file, .svg or .png. Precondition: there are some.
 void saveRays(Studio& studio, const std::string& file);
+/// Writes the view in space with the rays, their tree and the sum of the colour: .svg or .png, or a film in
+/// which one ray after the other appears, .apng. Precondition: there are rays.
+void saveStory(Studio& studio, const std::string& file);
 /// Finds the hierarchy boxes that the selected ray visited.
 void showBoxes(Studio& studio);
 /// The tab that lists the moves of a chain.

@@ -121,22 +121,25 @@ void addNormals(const SceneModel& model, Real size, const Color& colour, Pen& pe
   }
 }
 
-/// Two short strokes in the middle of a ray, which show where it goes.
+/// A head in the middle of a ray, which shows where it goes: strokes side by side, wider than the ray.
 void addArrow(const RaySegment& segment, const Vec3& eye, const Color& c, float opacity, float width,
               Pen& pen) {
-  constexpr Real kPlace = 0.55, kLong = 0.016, kWide = 0.45;
+  constexpr Real kPlace = 0.55, kLong = 0.012, kLonger = 0.006, kWide = 0.5;
+  constexpr int kStrokes = 4;  // on each side
   const Vec3 along = segment.to - segment.from, tip = segment.from + along * kPlace;
-  const Real far = length(along), size = std::min(kLong * length(tip - eye), 0.2 * far);
+  const Real far = length(along),
+             size = std::min((kLong + kLonger * static_cast<Real>(width)) * length(tip - eye), 0.25 * far);
   const Vec3 across = cross(along, tip - eye);
   if (!(far > 0) || !(length(across) > 0)) return;
   const Vec3 back = tip - along * (size / far), side = across * (kWide * size / length(across));
-  pen.line(tip, back + side, c, opacity, width);
-  pen.line(tip, back - side, c, opacity, width);
+  for (int i = -kStrokes; i <= kStrokes; ++i)
+    pen.line(tip, back + side * (static_cast<Real>(i) / kStrokes), c, opacity, 1.5f);
 }
 
 void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, const Vec3& eye, Pen& pen) {
   const RaysView& view = studio.rays;
   const Real whole = std::max(maxComponent(pixel.tree().nodes.front().weight), 1e-30);
+  const Color rim(studio.theme.light ? 1 : 0);
   for (const RaySegment& segment : pixel.segments) {
     const int i = segment.node;
     const RayNode& node = pixel.tree().nodes[static_cast<std::size_t>(i)];
@@ -151,6 +154,8 @@ void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, const 
                : static_cast<float>(std::sqrt(std::clamp(maxComponent(node.weight) / whole, 0.0, 1.0)));
     const Color tint = hot ? lerp(0.35, colour, Color(studio.theme.light ? 0 : 1)) : colour;
     const float opacity = pinned ? 0.6f : faint ? 0.25f : 1, width = 1.0f + 3.0f * weight + (hot ? 1.0f : 0);
+    if (!pinned && !faint)  // a rim, so that it is seen on any surface
+      pen.line(segment.from, segment.to, rim, 0.6f, width + 2, segment.leaves ? 6.0f : 0);
     pen.line(segment.from, segment.to, tint, opacity, width, segment.leaves ? 6.0f : 0);
     addArrow(segment, eye, tint, opacity, width, pen);
     if (view.hitNormalsShown && node.hit && !pinned)

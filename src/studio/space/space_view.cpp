@@ -6,19 +6,24 @@
 #include <optional>
 #include <utility>
 
+#include "app/explain/pixel_why.h"
+#include "app/view/magnifier.h"
 #include "app/view/room.h"
 #include "scene/picture_size.h"
+#include "studio/scene/selection.h"
 #include "studio/space/gizmo_view.h"
 #include "studio/space/rays_view.h"
 #include "studio/space/space_lines.h"
 #include "studio/studio.h"
+#include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
 namespace {
 
-constexpr float kNear = 6;       // pixels from a ray that count as on it
-constexpr float kHidden = 0.6f;  // opacity of what lies behind surfaces
+constexpr float kNear = 6;          // pixels from a ray that count as on it
+constexpr float kHidden = 0.6f;     // opacity of what lies behind surfaces
+constexpr float kNamedLegend = 46;  // characters across a view whose legend has names
 
 /// Asks for the scene's triangles when they have changed, and takes those that have come. Those of another
 /// scene are gone at once.
@@ -33,16 +38,18 @@ void updateModel(Studio& studio) {
     view.wallsOf.reset();
     view.built = false;
   }
-  if (view.modelScene != scene) {
-    if (!view.modelScene || !sameModel(*view.modelScene, *scene))
-      view.modelTask.start([scene, modeler = view.modeler](const Cancelled& cancelled) {
-        try {
-          return RaysView::Modelled{scene->file, modeler->model(*scene, cancelled)};
-        } catch (const std::exception&) {  // the render says what is wrong
-          return RaysView::Modelled{scene->file, {}};
-        }
-      });
+  if (view.modelScene != scene || view.modelFineness != view.fineness) {
+    if (!view.modelScene || view.modelFineness != view.fineness || !sameModel(*view.modelScene, *scene))
+      view.modelTask.start(
+          [scene, modeler = view.modeler, fineness = view.fineness](const Cancelled& cancelled) {
+            try {
+              return RaysView::Modelled{scene->file, modeler->model(*scene, cancelled, fineness)};
+            } catch (const std::exception&) {  // the render says what is wrong
+              return RaysView::Modelled{scene->file, {}};
+            }
+          });
     view.modelScene = scene;
+    view.modelFineness = view.fineness;
   }
   if (auto made = view.modelTask.take(); made && made->file == view.modelOf) {
     if (made->model.warnings != view.model.warnings) studio.workspace.report(made->model.warnings);
@@ -203,6 +210,84 @@ void drawHovered(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2
   list.PopClipRect();
 }
 
+/// The scene's light that is drawn at the cursor; none if there is none.
+std::optional<std::size_t> lightUnderCursor(const Studio& studio, const Matrix4& matrix, ImVec2 low,
+                                            ImVec2 size) {
+  constexpr float kReach = 10;  // pixels
+  const std::vector<LightSource>& lights = studio.workspace.document.scene().lights;
+  std::optional<std::size_t> nearest;
+  float least = kReach * studio.theme.scale;
+  if (!studio.rays.lightsShown) return {};
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (const Vec3* position = lights[i].light.position()) {
+      const float d = distanceTo(studio.rays, matrix, low, size, {.from = *position, .to = *position});
+      if (d < least) least = d, nearest = i;
+    }
+  return nearest;
+}
+
+/// A mark at the edge of the view for each light that lies beyond it; a click on one selects the light.
+void drawLightsBeyond(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size) {
+  const RaysView& view = studio.rays;
+  const Scene& scene = studio.workspace.document.scene();
+  constexpr std::size_t kMost = 16;  // more would be a frame of marks
+  if (!view.lightsShown || scene.lights.size() > kMost) return;
+  const float side = 7 * studio.theme.scale;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Vec3* position = scene.lights[i].light.position();
+    if (!position) continue;
+    const auto at = transform(matrix, (*position - view.model.origin) / view.model.scale);
+    const bool behind = at[3] <= 0;
+    const double w = std::abs(at[3]);
+    if (!(w > 0) || (!behind && std::abs(at[0]) <= w && std::abs(at[1]) <= w)) continue;
+    const Vec2 toward{at[0] / w * size.x, -at[1] / w * size.y};
+    const Vec2 place = edgeMark({size.x, size.y}, toward, 2 * side);
+    const ImVec2 mark{low.x + static_cast<float>(place.x), low.y + static_cast<float>(place.y)};
+    const double far = std::max(std::hypot(toward.x, toward.y), 1e-12);
+    const auto x = static_cast<float>(toward.x / far) * side, y = static_cast<float>(toward.y / far) * side;
+    Color c(1);
+    if (const Color* own = scene.lights[i].light.color())
+      c = clamp01(*own / std::max(maxComponent(*own), 1e-9)) * 0.8 + Color(0.2);
+    const ImU32 tint = ImGui::GetColorU32(
+        ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1));
+    ImGui::SetCursorScreenPos({mark.x - side, mark.y - side});
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::InvisibleButton("light beyond", {2 * side, 2 * side}))
+      studio.select(Studio::Selected::light, i);
+    ImGui::PopID();
+    landmark("light beyond " + std::to_string(i));
+    if (ImGui::IsItemHovered()) {
+      besideItem();
+      ImGui::SetTooltip("%s lies beyond the view", entryName(scene.lights[i]).c_str());
+    }
+    const ImVec2 tip{mark.x + x * 1.6f, mark.y + y * 1.6f}, left{mark.x - y * 0.7f, mark.y + x * 0.7f},
+        right{mark.x + y * 0.7f, mark.y - x * 0.7f};
+    list.AddCircleFilled(mark, side * 0.75f, IM_COL32(0, 0, 0, 160));
+    list.AddTriangleFilled(tip, left, right, tint);
+    list.AddCircleFilled(mark, side * 0.5f, tint);
+  }
+}
+
+/// The name of the ray under the cursor and the equation of its light, at the top of the view: so it covers
+/// nothing near the ray.
+void drawEquation(const Studio& studio, ImVec2 low, ImVec2 size, int ray) {
+  const TracedPixel& pixel = *shownPixel(studio);
+  const std::string text = std::string(look(pixel.looks(ray)).name) + ": " +
+                           sentence(pixel.tree().nodes[static_cast<std::size_t>(ray)], pixel.scene()) + "\n" +
+                           equationOf(pixel.tree(), pixel.scene(), ray);
+  const ImVec2 pad = ImGui::GetStyle().FramePadding;
+  const float room = size.x - 4 * pad.x;
+  const ImVec2 wide = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
+  const ImVec2 at{low.x + pad.x, low.y + pad.y};
+  const ImVec4 plate = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {at.x + wide.x + 2 * pad.x, at.y + wide.y + 2 * pad.y},
+                     ImGui::GetColorU32(ImVec4(plate.x, plate.y, plate.z, 0.85f)), pad.x);
+  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + pad.x, at.y + pad.y},
+               ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr, room);
+}
+
 /// How far away is what the middle of the camera's picture shows?
 Real distanceAhead(const Studio& studio, const CameraFrame& camera) {
   const auto session = studio.workspace.render.session();
@@ -249,33 +334,14 @@ void selectObjectUnderCursor(Studio& studio, const CameraFrame& frame, ImVec2 lo
 
 // --- switches -----------------------------------------------------------------------------------------
 
-void drawSwitches(Studio& studio) {
-  RaysView& view = studio.rays;
+void chooseSurfaces(RaysView& view, float wide) {
   const char* const kSurfaces[] = {"Shaded", "Wireframe", "No surfaces"};
   int surfaces = static_cast<int>(view.surfaces);
-  ImGui::SetNextItemWidth(characters(15));
+  ImGui::SetNextItemWidth(wide);
   if (ImGui::Combo("##surfaces", &surfaces, kSurfaces, 3)) view.surfaces = static_cast<Surfaces>(surfaces);
-  ImGui::SameLine();
-  if (ImGui::Button("Show...")) ImGui::OpenPopup("show");
-  const auto beside = [](const char* label, float more) {  // or on the next line
-    ImGui::SameLine();
-    const float wide = ImGui::CalcTextSize(label).x + 2 * ImGui::GetStyle().FramePadding.x + more;
-    if (ImGui::GetContentRegionAvail().x < wide) ImGui::NewLine();
-  };
-  beside("from camera", ImGui::GetFrameHeight());
-  ImGui::Checkbox("from camera", &view.fromCamera);
-  landmark("from camera");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("look as the scene's camera does; turning leaves it");
-  if (studio.selected == Studio::Selected::object) {
-    const char* const kModes[] = {"Move", "Turn", "Scale"};
-    int mode = static_cast<int>(view.gizmo.mode);
-    beside("Scale", ImGui::GetFrameHeight());
-    ImGui::SetNextItemWidth(characters(11));
-    if (ImGui::Combo("##gizmo", &mode, kModes, 3)) view.gizmo.mode = static_cast<GizmoMode>(mode);
-    landmark("gizmo");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("what the handles of the selected object do (M, T, S)");
-  }
-  beside("Reset", 0);
+}
+
+void resetButton(RaysView& view) {
   if (ImGui::Button("Reset")) {
     view.orbitFile.clear();
     view.orbitGuess.clear();
@@ -283,7 +349,47 @@ void drawSwitches(Studio& studio) {
     view.fromCamera = false;
   }
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("look at everything again");
+}
+
+/// One line, however narrow the view is: what has no room moves into "Show...".
+void drawSwitches(Studio& studio) {
+  RaysView& view = studio.rays;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float surfaces = characters(14), handles = characters(10), gap = style.ItemSpacing.x;
+  const bool handled = studio.selected == Studio::Selected::object;
+  const auto button = [&](const char* label) {
+    return ImGui::CalcTextSize(label).x + 2 * style.FramePadding.x + gap;
+  };
+  float needed = button("Show...") + ImGui::GetFrameHeight() + button("from camera");
+  if (handled) needed += handles + gap;
+  const float room = ImGui::GetContentRegionAvail().x;
+  const bool resets = needed + button("Reset") <= room,
+             chooses = needed + button("Reset") + surfaces + gap <= room;
+  if (chooses) {
+    chooseSurfaces(view, surfaces);
+    ImGui::SameLine();
+  }
+  if (ImGui::Button("Show...")) ImGui::OpenPopup("show");
+  ImGui::SameLine();
+  ImGui::Checkbox("from camera", &view.fromCamera);
+  landmark("from camera");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("look as the scene's camera does; turning leaves it");
+  if (handled) {
+    const char* const kModes[] = {"Move", "Turn", "Scale"};
+    int mode = static_cast<int>(view.gizmo.mode);
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(handles);
+    if (ImGui::Combo("##gizmo", &mode, kModes, 3)) view.gizmo.mode = static_cast<GizmoMode>(mode);
+    landmark("gizmo");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("what the handles of the selected object do (M, T, S)");
+  }
+  if (resets) {
+    ImGui::SameLine();
+    resetButton(view);
+  }
   if (!ImGui::BeginPopup("show")) return;
+  if (!chooses) chooseSurfaces(view, surfaces);
+  if (!resets) resetButton(view);
   ImGui::Checkbox("lights", &view.lightsShown);
   ImGui::Checkbox("camera", &view.cameraShown);
   ImGui::Checkbox("picture on its plane", &view.pictureShown);
@@ -298,6 +404,11 @@ void drawSwitches(Studio& studio) {
   ImGui::Checkbox("pinned rays", &view.pinnedShown);
   ImGui::Checkbox("a click brings its rays into sight", &view.raysFramed);
   ImGui::Checkbox("hierarchy boxes of the selected ray", &view.hierarchyShown);
+  ImGui::SetNextItemWidth(characters(20));
+  const char* const kFineness[] = {"coarse", "usual", "fine", "finest"};
+  int finer = std::clamp(static_cast<int>(std::lround(std::log2(view.fineness))) + 1, 0, 3);
+  if (ImGui::Combo("triangles", &finer, kFineness, 4)) view.fineness = std::exp2(finer - 1);
+  landmark("triangles");
   ImGui::SetNextItemWidth(characters(20));
   ImGui::SliderFloat("opacity", &view.opacity, 0.1f, 1, "%.2f");
   ImGui::EndPopup();
@@ -317,8 +428,9 @@ void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
   if (classes == 0 || fit < 1) return;
   const auto columns = std::ceil(static_cast<float>(classes) / fit);
   const auto rows = std::ceil(static_cast<float>(classes) / columns);
+  const bool named = columns == 1 && size.x >= characters(kNamedLegend);
   const auto textOf = [&](std::size_t i) {
-    return (columns > 1 ? "" : std::string(kRayLooks[i].name) + "  ") + std::to_string(count[i]);
+    return (named ? std::string(kRayLooks[i].name) + "  " : "") + std::to_string(count[i]);
   };
   const float side = ImGui::GetTextLineHeight() * 0.7f;
   float widest = 0;
@@ -443,17 +555,21 @@ void drawSpace(Studio& studio) {
   if (hovered && !ImGui::IsMouseDown(0) && !onHandle) {
     const int under = rayUnderCursor(studio, matrix, low, size);
     if (under >= 0) {
-      const TracedPixel& pixel = *shownPixel(studio);
       view.hovered = under;
       if (under != view.hoveredBefore) view.scrollTo = under;
-      ImGui::SetTooltip("%s: %s", look(pixel.looks(under)).name.data(),
-                        sentence(pixel.tree().nodes[static_cast<std::size_t>(under)], pixel.scene()).c_str());
       if (clicked) view.selected = under;
     }
-    if (clicked && under < 0) selectObjectUnderCursor(studio, world, low, size);
+    if (clicked && under < 0) {
+      if (const auto light = lightUnderCursor(studio, matrix, low, size))
+        studio.select(Studio::Selected::light, *light);
+      else
+        selectObjectUnderCursor(studio, world, low, size);
+    }
   }
   drawHovered(studio, matrix, low, size, view.hovered >= 0 ? view.hovered : view.hoveredBefore);
+  drawLightsBeyond(studio, matrix, low, size);
   drawLegend(studio, low, size);
+  if (hovered && view.hovered >= 0) drawEquation(studio, low, size, view.hovered);
 }
 
 }  // namespace trace::studio

@@ -3,7 +3,11 @@
 #include <cstdio>
 #include <utility>
 
+// For the panel that an item is in.
+#include <imgui_internal.h>
+
 #include "app/editing/edits.h"
+#include "app/editing/swatches.h"
 #include "studio/widgets/file_dialog.h"
 #include "studio/widgets/landmarks.h"
 #include "studio/widgets/number_field.h"
@@ -97,6 +101,33 @@ bool editValue(const FieldFacts& facts, Vec3& value) {
   return true;
 }
 
+namespace {
+
+/// Colours to choose from below the picker; null if none was.
+const Color* chosenSwatch() {
+  const Color* chosen = nullptr;
+  constexpr std::size_t kAcross = kSwatches.size() / 2;
+  constexpr ImGuiColorEditFlags kPlain = ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop;
+  const float side = ImGui::GetFrameHeight();
+  for (std::size_t i = 0; i < kSwatches.size(); ++i) {
+    const auto& [name, color] = kSwatches[i];
+    if (i % kAcross != 0) ImGui::SameLine(0, 2);
+    if (ImGui::ColorButton(
+            name.data(),
+            {static_cast<float>(color.r), static_cast<float>(color.g), static_cast<float>(color.b), 1},
+            kPlain, {side, side}))
+      chosen = &color;
+    landmark("swatch " + std::string(name));
+    if (ImGui::IsItemHovered()) {
+      besideItem();
+      ImGui::SetTooltip("%s", name.data());
+    }
+  }
+  return chosen;
+}
+
+}  // namespace
+
 bool editSwatch(Color& value) {
   constexpr ImGuiColorEditFlags kFlags = ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR;
   float picked[3] = {static_cast<float>(value.r), static_cast<float>(value.g), static_cast<float>(value.b)};
@@ -106,6 +137,12 @@ bool editSwatch(Color& value) {
   bool changed = false;
   if (ImGui::BeginPopup("pick")) {
     changed = ImGui::ColorPicker3("##picker", picked, kFlags | ImGuiColorEditFlags_NoInputs);
+    if (const Color* swatch = chosenSwatch()) {
+      value = *swatch;
+      ImGui::CloseCurrentPopup();
+      ImGui::EndPopup();
+      return true;
+    }
     ImGui::EndPopup();
   }
   if (changed) value = {picked[0], picked[1], picked[2]};
@@ -297,13 +334,34 @@ void endFields() {
   ImGui::EndTable();
 }
 
+std::string shortened(std::string_view text, float width) {
+  const auto fits = [&](const std::string& all) { return ImGui::CalcTextSize(all.c_str()).x <= width; };
+  std::string shown(text);
+  for (std::size_t kept = text.size(); !fits(shown) && kept > 1;)
+    shown = std::string(text.substr(0, --kept)) + "..";
+  return shown;
+}
+
 void rowName(std::string_view name) {
-  const float room = ImGui::GetContentRegionAvail().x;
-  const auto fits = [&](const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x <= room; };
-  std::string text(name);
-  for (std::size_t kept = name.size(); !fits(text) && kept > 1;)
-    text = std::string(name.substr(0, --kept)) + "..";
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(shortened(name, ImGui::GetContentRegionAvail().x).c_str());
+}
+
+void besidePanel() {
+  const ImGuiWindow& panel = *ImGui::GetCurrentWindow()->RootWindow;
+  const float gap = ImGui::GetStyle().ItemSpacing.x, middle = panel.Pos.x + panel.Size.x / 2;
+  const bool left = middle > ImGui::GetMainViewport()->GetCenter().x;
+  ImGui::SetNextWindowPos(
+      {left ? panel.Pos.x - gap : panel.Pos.x + panel.Size.x + gap, ImGui::GetItemRectMin().y},
+      ImGuiCond_Always, {left ? 1.0f : 0.0f, 0});
+}
+
+void besideItem() {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const ImGuiViewport& window = *ImGui::GetMainViewport();
+  const float gap = ImGui::GetStyle().ItemSpacing.y;
+  const bool above = high.y + 4 * ImGui::GetTextLineHeightWithSpacing() > window.Pos.y + window.Size.y;
+  ImGui::SetNextWindowPos({low.x, above ? low.y - gap : high.y + gap}, ImGuiCond_Always,
+                          {0, above ? 1.0f : 0.0f});
 }
 
 void fieldName(std::string_view name, std::string_view help, const std::string& range) {
@@ -313,6 +371,7 @@ void fieldName(std::string_view name, std::string_view help, const std::string& 
   rowName(name);
   landmarksOf("field " + outerFields() + std::string(name));
   if (ImGui::IsItemHovered()) {
+    besidePanel();
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(characters(60));
     ImGui::TextUnformatted(name.data(), name.data() + name.size());

@@ -83,8 +83,14 @@ void giveFile(unsigned field, std::string name);
 /// seen.
 bool beginFields(const char* id, bool buttons = false);
 void endFields();
+/// The text, or as much of it with ".." as is at most that wide.
+std::string shortened(std::string_view text, float width);
 /// The name of a row, shortened by ".." where it does not fit.
 void rowName(std::string_view name);
+/// The tooltip that comes next stands beside the panel, so that it covers none of its rows.
+void besidePanel();
+/// The tooltip that comes next stands below the last item, or above it where there is no room.
+void besideItem();
 /// The name in the first column, with its help; the widget comes into the second.
 void fieldName(std::string_view name, std::string_view help, const std::string& range = {});
 std::string rangeText(const FieldFacts& facts);

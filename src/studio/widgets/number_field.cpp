@@ -125,15 +125,15 @@ bool editNumberField(const char* label, double& value, const NumberLook& look, b
   char full[64];
   std::snprintf(full, sizeof full, look.format.c_str(), value);
   const float room = ImGui::CalcItemWidth() - ImGui::GetStyle().FramePadding.x / 2;
-  const bool word = value == look.least && !look.leastWord.empty();
+  const std::string_view word = value == look.least ? look.leastWord : value == kNoLimit ? "no limit" : "";
   const std::string text =
-      word ? std::string(look.leastWord) : shortNumber(value, look.format, [room](const std::string& spelt) {
+      !word.empty() ? std::string(word) : shortNumber(value, look.format, [room](const std::string& spelt) {
         return ImGui::CalcTextSize(spelt.c_str()).x <= room;
       });
   const bool shortened = text != full;  // then it stands over the widget's own text, with which typing begins
-  const std::string format = shortened ? "%.15g" : look.format;
+  const std::string format = !shortened ? look.format : whole ? "%.0f" : "%.15g";
   const ImGuiSliderFlags flags = (look.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
-                                 (shortened ? ImGuiSliderFlags_NoRoundToFormat : 0);
+                                 (shortened && !whole ? ImGuiSliderFlags_NoRoundToFormat : 0);
   double shown = value;
   if (shortened) ImGui::PushStyleColor(ImGuiCol_Text, 0);
   const bool changed = look.speed > 0 ? ImGui::DragScalar(label, ImGuiDataType_Double, &shown, look.speed,
@@ -145,7 +145,7 @@ bool editNumberField(const char* label, double& value, const NumberLook& look, b
     if (!ImGui::TempInputIsActive(id))
       ImGui::RenderTextClipped(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), text.c_str(), nullptr,
                                nullptr, {0.5f, 0.5f});
-    if (!word && ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
+    if (word.empty() && ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
       const std::size_t unit = look.format.find(' ', look.format.find("%."));
       ImGui::SetTooltip("%s%s", toText(value).c_str(),
                         unit == std::string::npos ? "" : look.format.substr(unit).c_str());
@@ -154,6 +154,35 @@ bool editNumberField(const char* label, double& value, const NumberLook& look, b
   const Settled<std::string> typed = settle(id, std::string(), false, ImGui::TempInputIsActive(id));
   if (typed.typed) return takeTyped(typed);
   return changed && take(shown);
+}
+
+/// One less, the number, one more: without the buttons where the number would have no room.
+bool editCount(const char* label, double& value, const NumberLook& look) {
+  const float width = ImGui::CalcItemWidth(), side = ImGui::GetFrameHeight(), gap = 1;
+  const float field = width - 2 * (side + gap);
+  const ImVec2 pad = ImGui::GetStyle().FramePadding;
+  if (field < ImGui::CalcTextSize("000").x + 2 * pad.x || ImGui::TempInputIsActive(ImGui::GetID(label)))
+    return editNumberField(label, value, look, true);
+  const auto step = [&](const char* name, double by, const char* help) {
+    const double next = value + by;
+    ImGui::BeginDisabled(next < look.least || next > look.most);
+    ImGui::PushID(label);
+    const bool pressed = ImGui::Button(name, {side, 0});
+    ImGui::PopID();
+    ImGui::EndDisabled();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+    if (pressed) value = next;
+    return pressed;
+  };
+  ImGui::BeginGroup();
+  bool changed = step("-", -1, "one less");
+  ImGui::SameLine(0, gap);
+  ImGui::SetNextItemWidth(field);
+  changed = editNumberField(label, value, look, true) || changed;
+  ImGui::SameLine(0, gap);
+  changed = step("+", 1, "one more") || changed;
+  ImGui::EndGroup();
+  return changed;
 }
 
 }  // namespace
@@ -168,7 +197,8 @@ bool editNumber(const char* id, int& value, const NumberLook& look) {
   inRange.least = std::max(look.least, -kMostInt);
   inRange.most = std::min(look.most, kMostInt);
   double number = value;
-  if (!editNumberField(id, number, inRange, true)) return false;
+  if (!(look.counted ? editCount(id, number, inRange) : editNumberField(id, number, inRange, true)))
+    return false;
   const int now = static_cast<int>(std::lround(number));
   return std::exchange(value, now) != now;
 }

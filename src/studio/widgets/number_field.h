@@ -16,6 +16,7 @@ struct NumberLook {
   bool clamped = true;
   std::string_view name{};       ///< for remarks
   std::string_view leastWord{};  ///< shown, and accepted, in place of the least number; "" if none is
+  bool counted = false;          ///< buttons for one more and one less, where they have room
 };
 
 /// The text after the number: " rays", of one " ray"; "" without a unit.

@@ -1,0 +1,94 @@
+#include "app/view/panel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/view/room.h"
+
+namespace trace {
+
+Panel::Panel(const CameraFrame& camera, const Point2& at, double width, double height)
+    : camera_(camera), at_(at), width_(width), height_(height), eye_(camera.eye) {
+  // p = eye + s (look + a right + b up): (s a, s b, s) = inverse of the axes' matrix.
+  Affine axes;
+  for (int i = 0; i < 3; ++i) axes.row[i] = {camera.right[i], camera.up[i], camera.look[i]};
+  toPlane_ = inverse(axes);
+}
+
+void Panel::line(Drawing& drawing, Vec3 from, Vec3 to, const Color& color, double width, bool dashed) const {
+  if (!camera_.plain) return bent(drawing, from, to, color, width, dashed);
+  Vec3 a = linear(toPlane_, from - eye_), b = linear(toPlane_, to - eye_);
+  const Real near = 1e-6 * std::max(std::abs(a.z), std::abs(b.z));  // just before the eye
+  if (!isFinite(a) || !isFinite(b) || (a.z <= near && b.z <= near)) return;
+  if (a.z < near) a = a + (b - a) * ((near - a.z) / (b.z - a.z));
+  if (b.z < near) b = b + (a - b) * ((near - b.z) / (a.z - b.z));
+  Point2 p = place(a), q = place(b);
+  if (clip(p, q)) drawing.things.push_back(DrawnLine{p, q, color, width, dashed});
+}
+
+void Panel::disk(Drawing& drawing, const Vec3& point, double radius, const Color& color) const {
+  const auto seen = isFinite(point) ? camera_.placeOf(point) : std::nullopt;
+  if (!seen || !std::isfinite(seen->x) || !std::isfinite(seen->y)) return;
+  const Point2 at = place(*seen);
+  if (at.x > at_.x && at.x < at_.x + width_ && at.y > at_.y && at.y < at_.y + height_)
+    drawing.things.push_back(DrawnDisk{at, radius, color});
+}
+
+/// In a projection that bends lines, or from two eyes: piece by piece.
+void Panel::bent(Drawing& drawing, const Vec3& from, const Vec3& to, const Color& color, double width,
+                 bool dashed) const {
+  constexpr int kPieces = 48;
+  std::optional<Point2> last;
+  for (int i = 0; i <= kPieces; ++i) {
+    const Vec3 at = from + (to - from) * (static_cast<Real>(i) / kPieces);
+    const auto seen = isFinite(at) ? camera_.placeOf(at) : std::nullopt;
+    const bool finite = seen && std::isfinite(seen->x) && std::isfinite(seen->y);
+    const std::optional<Point2> here = finite ? std::optional(place(*seen)) : std::nullopt;
+    // A panorama's line may leave at one side and come back at the other.
+    if (last && here && std::abs(here->x - last->x) < width_ / 2) {
+      Point2 p = *last, q = *here;
+      if (clip(p, q)) drawing.things.push_back(DrawnLine{p, q, color, width, dashed});
+    }
+    last = here;
+  }
+}
+
+/// To a little more than the frame (Liang and Barsky 1984); false if nothing is left.
+bool Panel::clip(Point2& p, Point2& q) const {
+  constexpr double kBeyond = 8;
+  const double dx = q.x - p.x, dy = q.y - p.y;
+  double first = 0, last = 1;
+  const auto within = [&](double d, double room) {  // room: what t d may be at most
+    if (d == 0) return room >= 0;
+    if (d > 0)
+      last = std::min(last, room / d);
+    else
+      first = std::max(first, room / d);
+    return first <= last;
+  };
+  if (!within(dx, at_.x + width_ + kBeyond - p.x) || !within(-dx, p.x - at_.x + kBeyond) ||
+      !within(dy, at_.y + height_ + kBeyond - p.y) || !within(-dy, p.y - at_.y + kBeyond))
+    return false;
+  const Point2 start = p;
+  p = {start.x + dx * first, start.y + dy * first};
+  q = {start.x + dx * last, start.y + dy * last};
+  return true;
+}
+
+DrawnPicture sketch(const World& world, const std::vector<std::uint32_t>& walls, const Vec3& inside,
+                    const Point2& at, double width, double height) {
+  Picture picture(static_cast<int>(width), static_cast<int>(height));
+  picture.pixels.assign(picture.pixels.size(), Color(1));
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const Ray ray = world.camera().ray({(x + 0.5) / picture.width, 1 - (y + 0.5) / picture.height});
+      const auto found = closestShown(world, ray, walls, inside);
+      if (!found) continue;
+      const Real facing = std::abs(dot(world.surface(ray, *found).normal, ray.direction));
+      picture.at(x, y) = Color(0.6 + 0.4 * facing / length(ray.direction));
+    }
+  return {at, std::move(picture)};
+}
+
+}  // namespace trace

@@ -1,0 +1,45 @@
+// The rays of a pixel as a person is shown them: the view in space, the tree, and the sum of the colour,
+// after each ray of the tracing. For a drawing, and for a short film.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/explain/pixel_inspector.h"
+#include "app/view/drawing.h"
+#include "shading/cameras/camera.h"
+
+namespace trace {
+
+class RayStory {
+ public:
+  /// `view`: the camera from which the scene is seen. Shades the surfaces once, which takes a moment.
+  /// Precondition: the pixel has rays.
+  RayStory(const TracedPixel& pixel, const Camera& view);
+
+  int rays() const { return static_cast<int>(pixel_.tree().nodes.size()); }
+  /// After so many rays, in the order of tracing; with the sentence about the last, or about the pixel once
+  /// all are there.
+  Drawing after(int rays) const;
+
+ private:
+  void addSpace(Drawing& drawing, int rays) const;
+  void addTree(Drawing& drawing, int rays) const;
+  void addSum(Drawing& drawing, int rays) const;
+
+  TracedPixel pixel_;
+  CameraFrame frame_;
+  DrawnPicture surfaces_;
+};
+
+/// The film in which one ray after the other appears, as an animated PNG.
+std::string filmOf(const RayStory& story);
+
+/// The camera of a scene that sees what the frame shows. Precondition: the frame is orthogonal.
+Camera cameraOf(const CameraFrame& frame, Real aspect);
+
+/// A colour of light as the picture of a session with these settings shows it.
+Color shownColour(const Color& light, const Settings& settings);
+
+}  // namespace trace

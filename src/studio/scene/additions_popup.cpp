@@ -1,0 +1,196 @@
+#include "studio/scene/additions_popup.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "app/editing/placing.h"
+#include "app/view/scene_model.h"
+#include "base/find_field.h"
+#include "geometry/mesh/tessellate.h"
+#include "render/world/hit.h"
+#include "scene/picture_size.h"
+#include "shading/library.h"
+#include "studio/scene/selection.h"
+#include "studio/studio.h"
+#include "studio/widgets/card.h"
+#include "studio/widgets/field_editor.h"
+#include "studio/widgets/landmarks.h"
+
+namespace trace::studio {
+namespace {
+
+constexpr int kSide = 120;  // pixels of a preview
+
+using Selected = Studio::Selected;
+
+Material newMaterial() {
+  Phong grey;
+  grey.diffuse = Color(0.7);
+  return {"", grey, {}};
+}
+
+/// On what the camera looks at.
+Affine inSight(const Studio& studio, const Shape& shape) {
+  const auto session = studio.workspace.render.session();
+  if (!session) return {};
+  const World& world = session->world();
+  const Camera& camera = session->scene().camera;
+  const CameraFrame view =
+      frame(cameraFor(session->scene(), session->settings()), session->settings().cameraAxes);
+  const Ray ray = world.camera().ray({0.5, 0.5});
+  Statistics statistics;
+  std::optional<SurfacePoint> there;
+  if (const auto found = world.closest(ray, Faces::both, statistics)) there = Hit(world, ray, *found).surface;
+  constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+  const Box3 all = frameOf(session->scene());
+  const Real ahead = all.empty() ? 5 : std::max(length(all.center() - view.eye), 1e-30);
+  return placedInSight(drawnBounds(shape, kEverywhere), view, camera.updir, there, ahead);
+}
+
+/// The scene's material of that name, or the library's, which the scene gets.
+std::size_t materialCalled(Scene& scene, const std::string& name) {
+  const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
+                                  [&](const Material& material) { return material.name == name; });
+  const auto index = static_cast<std::size_t>(found - scene.materials.begin());
+  if (found != scene.materials.end()) return index;
+  Material material = libraryMaterial(name).value_or(newMaterial());
+  material.name = name;
+  scene.materials.push_back(std::move(material));
+  return index;
+}
+
+/// As one step; then it is selected. A material goes to the selected object, if there is one.
+void add(Studio& studio, const Addition& addition) {
+  Scene scene = studio.workspace.document.scene();
+  const std::string name(addition.name);
+  Selected kind = Selected::object;
+  std::size_t index = 0;
+  switch (addition.kind) {
+    case Addition::Kind::shape: {
+      if (scene.materials.empty()) scene.materials.push_back(newMaterial());
+      Shape shape(rowCalled<ShapeType>(name));
+      const Affine placed = inSight(studio, shape);
+      scene.objects.push_back({"", std::move(shape), placed, 0, {}});
+      index = scene.objects.size() - 1;
+      break;
+    }
+    case Addition::Kind::light: {
+      Light light(rowCalled<LightType>(name));
+      if (Color* color = editableValue<Color>(light, "color")) *color = Color(1);
+      if (Vec3* position = editableValue<Vec3>(light, "position")) *position = scene.camera.position;
+      scene.lights.push_back({std::move(light), {}});
+      kind = Selected::light;
+      index = scene.lights.size() - 1;
+      break;
+    }
+    case Addition::Kind::material: {
+      index = materialCalled(scene, name);
+      const bool given = studio.selected == Selected::object && studio.selectedIndex < scene.objects.size();
+      if (given)
+        scene.objects[studio.selectedIndex].material = static_cast<std::uint32_t>(index);
+      else
+        kind = Selected::material;
+      if (given) index = studio.selectedIndex;
+      break;
+    }
+  }
+  const std::size_t told = studio.workspace.log().size();
+  studio.workspace.edit("add " + name, std::move(scene));
+  if (studio.workspace.log().size() > told) studio.show("Log");
+  if (index < howMany(studio.workspace.document.scene(), kind)) studio.select(kind, index);
+}
+
+std::string keyOf(const Addition& addition) {
+  return std::to_string(static_cast<int>(addition.kind)) + std::string(addition.name);
+}
+
+/// Their pictures, as far as the words ask for them; the one that was pressed, and the one under the cursor.
+struct Cards {
+  const Addition* pressed = nullptr;
+  const Addition* over = nullptr;
+};
+Cards drawCards(Studio& studio, const std::vector<Addition>& all, const char* words) {
+  Cards cards;
+  constexpr int kMostAcross = 8;
+  const CardRow row = cardsAcross(characters(14), kMostAcross);
+  int shown = 0;
+  for (const Addition& each : all) {
+    if (!isAbout(each, words)) continue;
+    if (shown++ % row.count != 0) ImGui::SameLine();
+    const ImVec2 size{row.width, std::round(row.width * 0.8f)};
+    const bool inSight = ImGui::IsRectVisible({size.x, cardHeight(size.y)});
+    const std::string name(each.name);
+    if (drawCard(name, name, inSight ? studio.previews.of(each) : nullptr, size)) cards.pressed = &each;
+    landmark("add " + name);
+    if (ImGui::IsItemHovered() || ImGui::IsItemFocused()) cards.over = &each;
+  }
+  if (shown == 0) ImGui::TextDisabled("none of that name");
+  return cards;
+}
+
+}  // namespace
+
+const Texture* Previews::of(const Addition& addition) {
+  const auto found = made_.find(keyOf(addition));
+  if (found != made_.end()) return found->second.get();
+  if (!task_.pending())
+    task_.start([addition](const Cancelled&) { return Made{keyOf(addition), preview(addition, kSide)}; });
+  return nullptr;
+}
+
+void Previews::update() {
+  auto made = task_.take();
+  if (!made) return;
+  std::unique_ptr<Texture>& texture = made_[made->name];
+  texture = std::make_unique<Texture>();
+  if (made->bytes.width > 0) texture->set(made->bytes);
+}
+
+void drawAdditions(Studio& studio) {
+  static char words[64] = "";
+  if (ImGui::Button("Add...")) ImGui::OpenPopup("add");
+  landmark("add");
+  const ImVec2 window = ImGui::GetMainViewport()->WorkSize;
+  ImGui::SetNextWindowSize({std::min(characters(96), window.x * 0.7f), window.y * 0.75f});
+  if (!ImGui::BeginPopup("add")) return;
+  studio.previews.update();
+  if (ImGui::IsWindowAppearing()) {
+    words[0] = 0;
+    ImGui::SetKeyboardFocusHere();
+  }
+  ImGui::SetNextItemWidth(-1);
+  ImGui::InputTextWithHint("##find", "find a shape, a light or a material", words, sizeof words);
+  landmark("find an addition");
+  static const std::pair<const char*, std::vector<Addition>> kSections[] = {
+      {"Objects", additions(Addition::Kind::shape)},
+      {"Lights", additions(Addition::Kind::light)},
+      {"Materials of the library", additions(Addition::Kind::material)}};
+  ImGui::BeginChild("cards", {0, -ImGui::GetTextLineHeightWithSpacing()});
+  Cards cards;
+  for (const auto& [title, list] : kSections) {
+    ImGui::TextUnformatted(title);
+    ImGui::Separator();
+    const Cards some = drawCards(studio, list, words);
+    if (some.pressed) cards.pressed = some.pressed;
+    if (some.over) cards.over = some.over;
+    ImGui::Spacing();
+  }
+  ImGui::EndChild();
+  const std::string help = !cards.over ? "a new object stands on what the middle of the picture shows"
+                                       : std::string(cards.over->name) + ": " + std::string(cards.over->help);
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  rowName(help);
+  ImGui::PopStyleColor();
+  if (cards.pressed) {
+    add(studio, *cards.pressed);
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndPopup();
+}
+
+}  // namespace trace::studio

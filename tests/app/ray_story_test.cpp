@@ -1,0 +1,96 @@
+// The view in space, the tree and the sum as a drawing, and as a film.
+#include "app/view/ray_story.h"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "app/session/session.h"
+#include "geometry/shapes/solids/sphere.h"
+#include "image/codecs/codec_parts.h"
+#include "image/development/development.h"
+#include "support/scenes.h"
+
+namespace trace::test {
+namespace {
+
+std::shared_ptr<const Session> sessionOf(const Scene& scene, Settings settings) {
+  settings.width = settings.height = 40;
+  auto session = std::make_shared<Session>();
+  session->open(scene, settings);
+  session->build();
+  return session;
+}
+
+Scene mirrorAndBall() {
+  Phong mirror, red;
+  mirror.reflective = Color(0.8);
+  red.diffuse = Color(0.8, 0.1, 0.1), red.emissive = Color(0.1, 0, 0);
+  Scene scene;
+  addObject(scene, Sphere{}, {}, mirror);
+  addObject(scene, Sphere{}, Affine::translation({0, 0, 12}) * Affine::scaling({4, 4, 4}), red);
+  scene.objects.front().name = "mirror";
+  scene.camera.position = {0, 0, 6};
+  return scene;
+}
+
+std::size_t wordsIn(const Drawing& drawing, const std::string& part) {
+  std::size_t count = 0;
+  for (const Drawn& thing : drawing.things)
+    if (const auto* words = std::get_if<DrawnWords>(&thing))
+      count += words->words.find(part) != std::string::npos;
+  return count;
+}
+
+TEST(RayStory, HasTheRaysTheTreeAndTheSum) {
+  const auto session = sessionOf(mirrorAndBall(), {});
+  const TracedPixel pixel = tracePixel(session, 20, 20, 0);
+  ASSERT_GT(pixel.tree().nodes.size(), 1u);
+  const RayStory story(pixel, session->scene().camera);
+  const Drawing none = story.after(0), first = story.after(1), all = story.after(story.rays());
+  EXPECT_EQ(wordsIn(none, "camera: mirror"), 0u);
+  EXPECT_EQ(wordsIn(first, "camera: mirror"), 1u);
+  EXPECT_EQ(wordsIn(first, "reflection: "), 0u) << "it is traced later";
+  EXPECT_EQ(wordsIn(all, "reflection: "), 1u);
+  EXPECT_EQ(wordsIn(all, pixel.why.sentence), 1u);
+  EXPECT_GT(all.things.size(), first.things.size());
+  EXPECT_EQ(all.width, none.width);
+  EXPECT_EQ(all.height, none.height);
+}
+
+TEST(RayStory, AFilmHasAPictureForEachRay) {
+  const auto session = sessionOf(mirrorAndBall(), {});
+  const RayStory story(tracePixel(session, 20, 20, 0), session->scene().camera);
+  int pictures = 0;
+  forEachPngChunk(filmOf(story),
+                  [&](std::string_view type, std::string_view) { pictures += type == "fcTL"; });
+  EXPECT_EQ(pictures, story.rays());
+}
+
+TEST(RayStory, ACameraIsThatOfItsFrame) {
+  Camera camera;
+  camera.position = {1, 2, 3}, camera.viewdir = {0.2, -0.1, -1}, camera.fov = 33, camera.aspectratio = 1.4;
+  const Camera again = cameraOf(frame(camera, CameraAxes::orthonormal), 1.4);
+  EXPECT_NEAR(again.fov, 33, 1e-9);
+  EXPECT_NEAR(length(again.viewdir - normalize(camera.viewdir)), 0, 1e-12);
+  EXPECT_EQ(again.position, camera.position);
+}
+
+TEST(RayStory, SwatchesAndSentencesCountAutomaticExposureOnce) {
+  Phong lamp;
+  lamp.emissive = Color(40, 30, 20);
+  lamp.diffuse = Color(0);
+  Scene scene;
+  addObject(scene, Sphere{}, {}, lamp);
+  scene.camera.position = {0, 0, 3};
+  const auto session = sessionOf(scene, {.autoExposure = true});
+  EXPECT_LT(session->measuredExposure(), -3);
+  const TracedPixel pixel = tracePixel(session, 20, 20, 0);
+  EXPECT_EQ(pixel.why.sentence.find("Dark"), std::string::npos) << pixel.why.sentence;
+  EXPECT_EQ(pixel.why.sentence.find("Black"), std::string::npos) << pixel.why.sentence;
+  const Color shown = shownColour(pixel.tree().nodes.front().radiance, session->settings());
+  EXPECT_GT(maxComponent(shown), 0.3);
+}
+
+}  // namespace
+}  // namespace trace::test
