@@ -287,7 +287,7 @@ void drawRays(Studio& studio) {
   const PixelInspector& inspector = studio.workspace.inspector;
   const TracedPixel* pixel = shownPixel(studio);
   const float height = ImGui::GetContentRegionAvail().y;
-  const bool low = height < 30 * ImGui::GetTextLineHeight();  // then the tree needs every line
+  const bool low = height < 35 * ImGui::GetTextLineHeight();  // then the tree needs every line
   ImGui::BeginChild("space",
                     {0, height * (!pixel              ? 0.88f
                                   : low               ? 0.34f

@@ -112,7 +112,8 @@ std::optional<std::string> editChoiceOf(const Option& option, const std::string&
 
 /// Check boxes; the list stays open.
 std::optional<std::string> editChoices(const Option& option, const std::string& value) {
-  if (!ImGui::BeginCombo("##value", value.c_str())) return {};
+  const float room = ImGui::CalcItemWidth() - ImGui::GetFrameHeight() - 2 * ImGui::GetStyle().FramePadding.x;
+  if (!ImGui::BeginCombo("##value", shortened(value, room).c_str())) return {};
   const std::string among = "," + value + ",";
   std::string chosen;
   bool changed = false;
@@ -247,7 +248,7 @@ void row(Studio& studio, const Option& option, const Settings& defaults, const S
 void drawFrequentOptions(Studio& studio) {
   constexpr std::string_view kFrequent[] = {"width", "spp", "depth", "integrator", "light-samples"};
   const Settings now = studio.workspace.chosenSettings();
-  const float wide = characters(13), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const float wide = characters(11.5f), gap = ImGui::GetStyle().ItemInnerSpacing.x;
   const auto beside = [](float width) {
     if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
   };
