@@ -67,9 +67,10 @@ void drawDock(Studio& studio, Dock dock, const char* name, ImVec2 position, ImVe
   if (!occupied(studio, dock) || size.x < 1 || size.y < 1) return;
   ImGui::SetNextWindowPos(position);
   ImGui::SetNextWindowSize(size);
-  constexpr ImGuiWindowFlags kFlags =
-      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse;
+  constexpr ImGuiWindowFlags kFlags =  // the window is cleared to the background of panels
+      ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+      ImGuiWindowFlags_NoScrollWithMouse;
   ImGui::Begin(name, nullptr, kFlags);
   if (ImGui::BeginTabBar("tabs", ImGuiTabBarFlags_FittingPolicyScroll | ImGuiTabBarFlags_NoTooltip)) {
     for (const Panel& panel : panels()) {

@@ -204,7 +204,8 @@ void Window::beginFrame() {
 void Window::draw() const {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, state_->width, state_->height);
-  glClearColor(0, 0, 0, 1);
+  const ImVec4& panel = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
+  glClearColor(panel.x, panel.y, panel.z, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

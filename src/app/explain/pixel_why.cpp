@@ -191,7 +191,8 @@ std::string equationOf(const RayTree& tree, const Scene& scene, int ray) {
   std::string text = channels(node.radiance);
   const char* sign = " = ";
   for (const WhySummand& each : sumOf(tree, scene, ray))
-    text += std::exchange(sign, " + ") + each.name + " " + channels(each.color);
+    text += std::exchange(sign, " + ") + each.name.substr(0, each.name.find(" (")) +  // without its place
+            " " + channels(each.color);
   return text;
 }
 

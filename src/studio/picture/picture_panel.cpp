@@ -10,6 +10,7 @@
 #include "app/view/picture_views.h"
 #include "studio/panels.h"
 #include "studio/picture/picture_parts.h"
+#include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
@@ -135,20 +136,6 @@ FrameArea frameOf(PictureView& view, ImVec2 canvas, ImVec2 area, int width, int 
 void pictureIn(const FrameArea& frame, const Texture& texture) {
   ImGui::GetWindowDrawList()->AddImage(texture.id(), frame.low,
                                        {frame.low.x + frame.size.x, frame.low.y + frame.size.y});
-}
-
-/// The words in lines of at most that width: Dear ImGui would break a number at its point.
-std::string inLines(std::string_view words, float most) {
-  std::string lines, line;
-  while (!words.empty()) {
-    const std::size_t space = std::min(words.find(' '), words.size());
-    const std::string word(words.substr(0, space)), longer = line.empty() ? word : line + " " + word;
-    words.remove_prefix(std::min(space + 1, words.size()));
-    const bool fits = line.empty() || ImGui::CalcTextSize(longer.c_str()).x <= most;
-    if (!fits) lines += line + "\n";
-    line = fits ? longer : word;
-  }
-  return lines + line;
 }
 
 /// A text on a dark plate, so that it can be read on any picture, in lines of at most that width. Where it

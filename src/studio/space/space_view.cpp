@@ -273,19 +273,18 @@ void drawLightsBeyond(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 
 /// nothing near the ray.
 void drawEquation(const Studio& studio, ImVec2 low, ImVec2 size, int ray) {
   const TracedPixel& pixel = *shownPixel(studio);
-  const std::string text = std::string(look(pixel.looks(ray)).name) + ": " +
-                           sentence(pixel.tree().nodes[static_cast<std::size_t>(ray)], pixel.scene()) + "\n" +
-                           equationOf(pixel.tree(), pixel.scene(), ray);
   const ImVec2 pad = ImGui::GetStyle().FramePadding;
   const float room = size.x - 4 * pad.x;
-  const ImVec2 wide = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
+  const std::string said = sentence(pixel.tree().nodes[static_cast<std::size_t>(ray)], pixel.scene());
+  const std::string text = inLines(std::string(look(pixel.looks(ray)).name) + ": " + said, room) + "\n" +
+                           inLines(equationOf(pixel.tree(), pixel.scene(), ray), room);
+  const ImVec2 wide = ImGui::CalcTextSize(text.c_str());
   const ImVec2 at{low.x + pad.x, low.y + pad.y};
   const ImVec4 plate = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(at, {at.x + wide.x + 2 * pad.x, at.y + wide.y + 2 * pad.y},
                      ImGui::GetColorU32(ImVec4(plate.x, plate.y, plate.z, 0.85f)), pad.x);
-  list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {at.x + pad.x, at.y + pad.y},
-               ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr, room);
+  list.AddText({at.x + pad.x, at.y + pad.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
 /// How far away is what the middle of the camera's picture shows?

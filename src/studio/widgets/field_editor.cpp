@@ -342,6 +342,19 @@ std::string shortened(std::string_view text, float width) {
   return shown;
 }
 
+std::string inLines(std::string_view words, float most) {
+  std::string lines, line;
+  while (!words.empty()) {
+    const std::size_t space = std::min(words.find(' '), words.size());
+    const std::string word(words.substr(0, space)), longer = line.empty() ? word : line + " " + word;
+    words.remove_prefix(std::min(space + 1, words.size()));
+    const bool fits = line.empty() || ImGui::CalcTextSize(longer.c_str()).x <= most;
+    if (!fits) lines += line + "\n";
+    line = fits ? longer : word;
+  }
+  return lines + line;
+}
+
 void rowName(std::string_view name) {
   ImGui::TextUnformatted(shortened(name, ImGui::GetContentRegionAvail().x).c_str());
 }

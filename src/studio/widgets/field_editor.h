@@ -85,6 +85,8 @@ bool beginFields(const char* id, bool buttons = false);
 void endFields();
 /// The text, or as much of it with ".." as is at most that wide.
 std::string shortened(std::string_view text, float width);
+/// The words in lines of at most that width: Dear ImGui would break a number at its point.
+std::string inLines(std::string_view words, float most);
 /// The name of a row, shortened by ".." where it does not fit.
 void rowName(std::string_view name);
 /// The tooltip that comes next stands beside the panel, so that it covers none of its rows.
