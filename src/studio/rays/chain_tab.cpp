@@ -58,9 +58,9 @@ void drawChain(Studio& studio, const TracedPixel&) {
   const bool named = changesPaths(studio.workspace.shownSettings());  // mutations have longer names
   ImGui::TableSetupColumn("goes", ImGuiTableColumnFlags_WidthFixed, characters(named ? 13 : 8));
   ImGui::TableSetupColumn("pixel", ImGuiTableColumnFlags_WidthFixed, characters(8));
-  ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthFixed, characters(18));
+  ImGui::TableSetupColumn("brings", ImGuiTableColumnFlags_WidthStretch, 0.6f);
   ImGui::TableSetupColumn("light", ImGuiTableColumnFlags_WidthFixed, characters(6));
-  ImGui::TableSetupColumn("made", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("made", ImGuiTableColumnFlags_WidthStretch, 0.4f);
   columnHeads({"its number in the chain",
                "small step: each random number changes a little; large step: all are replaced; or the "
                "mutation of vertices",

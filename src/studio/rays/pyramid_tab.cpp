@@ -151,7 +151,12 @@ void drawPyramid(Studio& studio, const TracedPixel&) {
     ImGui::SetTooltip("each strategy alone at full weight; else with its MIS weight");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-1);
-  editNumber("##places", view.places, {kLeastPlaces, kMostPlaces, "paths of up to %.0f vertices"});
+  editNumber("##places", view.places,
+             {.least = kLeastPlaces,
+              .most = kMostPlaces,
+              .format = "paths of up to %.0f vertices",
+              .speed = 0.05f,
+              .counted = true});
   const std::string& problem = view.all.maker.pyramid().problem;
   ImGui::PushStyleColor(ImGuiCol_Text, problem.empty() ? studio.palette().muted : studio.palette().error);
   cutText(problem.empty() ? standing(studio) : problem);

@@ -16,6 +16,7 @@
 #include "studio/panels.h"
 #include "studio/rays/ray_rows.h"
 #include "studio/space/rays_view.h"
+#include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
@@ -86,7 +87,7 @@ void drawBoxes(Studio& studio) {
   char format[32];
   std::snprintf(format, sizeof format, "box %%d of %d", count);
   ImGui::SetNextItemWidth(-characters(10));
-  ImGui::SliderInt("##box", &view.box, 1, count, format);
+  ImGui::DragInt("##box", &view.box, 0.1f, 1, count, format, ImGuiSliderFlags_AlwaysClamp);
   ImGui::SameLine();
   if (ImGui::Button("Hide")) view.boxesOf = -1;
 }
@@ -266,9 +267,7 @@ std::string noteOn(const RaysView& view, const TracedPixel& pixel) {
 void drawNote(const Studio& studio, const TracedPixel& pixel) {
   const std::string note = noteOn(studio.rays, pixel);
   if (note.empty()) return;
-  ImGui::PushTextWrapPos();
-  ImGui::TextColored(studio.palette().changed, "%s", note.c_str());
-  ImGui::PopTextWrapPos();
+  ImGui::TextColored(studio.palette().changed, "%s", inLines(note, ImGui::GetContentRegionAvail().x).c_str());
   landmark("note on rays");
   if (!studio.rays.chains.offered() && !lightImageAt(pixel).empty() && ImGui::IsItemHovered())
     ImGui::SetTooltip(

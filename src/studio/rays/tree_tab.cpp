@@ -5,6 +5,7 @@
 
 #include "studio/rays/ray_rows.h"
 #include "studio/space/rays_view.h"
+#include "studio/widgets/field_editor.h"
 
 namespace trace::studio {
 namespace {
@@ -35,10 +36,10 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
   const bool ends = ImGui::GetContentRegionAvail().x >= characters(kWordsInFour);
   if (!ImGui::BeginTable(ends ? "tree" : "narrow tree", ends ? 4 : 3, kRayTable, {0, -below})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, ends ? 0.4f : 0.55f);
-  ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, ends ? 0.27f : 0.45f);
+  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, ends ? 0.46f : 0.6f);
+  ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, ends ? 0.26f : 0.4f);
   ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(ends ? 9 : 7));
-  if (ends) ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.33f);
+  if (ends) ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.28f);
   columnHeads({"its kind and its secondary rays", "the object, light or medium that it came to",
                "the largest channel of its contribution to the pixel: its radiance times its weight there",
                "why it ended, or how it continues"},
@@ -81,7 +82,8 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
       if (!pixel.hasChildren[n]) flags |= ImGuiTreeNodeFlags_Leaf;
       ImGui::SetNextItemOpen(!view.closed[n]);
       ImGui::PushStyleColor(ImGuiCol_Text, rayColour(studio, pixel, i));
-      const bool open = ImGui::TreeNodeEx("##node", flags, "%s", rayName(pixel, i));
+      const float room = ImGui::GetContentRegionAvail().x - ImGui::GetTreeNodeToLabelSpacing();
+      const bool open = ImGui::TreeNodeEx("##node", flags, "%s", shortened(rayName(pixel, i), room).c_str());
       ImGui::PopStyleColor();
       if (ImGui::IsItemToggledOpen())
         view.closed[n] = !open;

@@ -11,6 +11,7 @@
 #include "studio/panels.h"
 #include "studio/rays/ray_rows.h"
 #include "studio/space/rays_view.h"
+#include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
@@ -108,10 +109,8 @@ void cure(Studio& studio, const TracedPixel&, const WhyCure& by, bool pins) {
 void drawWhy(Studio& studio, const TracedPixel& pixel) {
   const PixelWhy& why = pixel.why;
   if (why.sentence.empty()) return;
-  ImGui::PushTextWrapPos();
   ImGui::TextColored(why.ray >= 0 ? studio.palette().changed : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%s",
-                     why.sentence.c_str());
-  ImGui::PopTextWrapPos();
+                     inLines(why.sentence, ImGui::GetContentRegionAvail().x).c_str());
   landmark("why");
   if (ImGui::IsItemClicked() && why.ray >= 0) studio.rays.selected = studio.rays.scrollTo = why.ray;
   if (!studio.rays.pyramid.open) drawSum(studio, pixel);

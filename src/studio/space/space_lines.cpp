@@ -93,14 +93,16 @@ void addLight(const Light& light, const Vec3& target, Real radius, Pen& pen) {
   if (light.is<GoniometricLight>())
     pen.line(*position, *position + normalize(*direction) * (2 * size), c, 1, 1.5f);
   if (position) {
-    for (int x = -1; x <= 1; ++x)
-      for (int y = -1; y <= 1; ++y)
-        for (int z = -1; z <= 1; ++z)
-          if (const Vec3 d(x, y, z); x || y || z) {
-            const Vec3 from = *position + normalize(d) * (0.3 * size), to = *position + normalize(d) * size;
-            pen.line(from, to, Color(0.1), 0.7f, 3.5f);  // a rim, so that it is seen before a bright wall
-            pen.line(from, to, c, 1, 1.5f);
-          }
+    const auto star = [&](const Color& colour, float opacity, float width) {
+      for (int x = -1; x <= 1; ++x)
+        for (int y = -1; y <= 1; ++y)
+          for (int z = -1; z <= 1; ++z)
+            if (const Vec3 d(x, y, z); x || y || z)
+              pen.line(*position + normalize(d) * (0.3 * size), *position + normalize(d) * size, colour,
+                       opacity, width);
+    };
+    star(Color(0.1), 0.5f, 3);  // a rim, so that it is seen before a bright wall
+    star(c, 1, 1.5f);
   } else if (direction) {
     const Vec3 d = normalize(*direction);
     const Vec3 side = perpendicularTo(d), other = cross(d, side);
