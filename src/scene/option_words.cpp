@@ -26,6 +26,7 @@ constexpr std::array kWordRows{
     Row{"noise-target", "adaptive supersampling error grain variance threshold"},
     Row{"subdivide", "adaptive supersampling antialias antialiasing recursive whitted corners jaggies"},
     Row{"subdivide-threshold", "adaptive supersampling antialias antialiasing contrast"},
+    Row{"jpeg-quality", "jpg compression compress size file"},
     Row{"denoise", "noise grain filter smooth clean denoiser denoising"},
     Row{"shutter", "motion blur moving speed exposure time streak"},
     Row{"moments", "motion blur steps time"},

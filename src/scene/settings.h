@@ -111,6 +111,7 @@ struct Settings {
   int subdivide = 0;
   Real subdivideThreshold = 0.003;
   bool denoise = false;
+  int jpegQuality = 95;
   Real time = 0;
   Real shutter = 0;
   int moments = 16;

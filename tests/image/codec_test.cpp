@@ -770,5 +770,26 @@ TEST(CodecErrors, DamagedFilesNeverShowMemory) {
 #endif
 }
 
+TEST(Codec, JpegsOfLessQualityAreSmallerAndCoarser) {
+  Picture picture(64, 64);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) picture.at(x, y) = Color(x / 64.0, y / 64.0, (x * y) % 7 / 7.0);
+  const PictureFormat& jpeg = pictureFormatFor(".jpg");
+  const std::string fine = encodePicture(jpeg, picture, {Rounding::nearest, 100}),
+                    usual = encodePicture(jpeg, picture, Rounding::nearest),
+                    coarse = encodePicture(jpeg, picture, {Rounding::nearest, 20});
+  EXPECT_LT(usual.size(), fine.size());
+  EXPECT_LT(coarse.size(), usual.size() / 2);
+  const auto error = [&](const std::string& file) {
+    const Picture read = decodePicture(file, "test.jpg");
+    double sum = 0;
+    for (std::size_t i = 0; i < read.pixels.size(); ++i)
+      sum += std::abs(read.pixels[i].g - picture.pixels[i].g);
+    return sum;
+  };
+  EXPECT_LT(error(fine), error(usual));
+  EXPECT_LT(error(usual), error(coarse));
+}
+
 }  // namespace
 }  // namespace trace

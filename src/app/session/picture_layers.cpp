@@ -147,6 +147,7 @@ std::string encodedPng(const Picture& picture, const FinishedFilm& f, const Meta
 std::string encoded(const Output& output, const FinishedFilm& f, const Metadata& words) {
   const PictureFormat& format = pictureFormatFor(output.path);
   const Settings& settings = f.settings;
+  const Encoding encoding(settings.rounding, settings.jpegQuality);
   if (output.pass.empty()) {
     const Picture picture = finished(f.shown, settings);
     if (&format == exrFormat()) return encodedExr(picture, f, words);
@@ -154,14 +155,13 @@ std::string encoded(const Output& output, const FinishedFilm& f, const Metadata&
       return encodedPng(picture, f, words);
     const Development development = developmentOf(settings);
     const bool asItIs = format.keepsBright || development == Development{};
-    return encodePicture(format, asItIs ? picture : developed(picture, development), settings.rounding,
-                         words);
+    return encodePicture(format, asItIs ? picture : developed(picture, development), encoding, words);
   }
   const auto passes = passesOf(settings);
   const auto pass = std::find_if(passes.begin(), passes.end(),
                                  [&](const PassRow* row) { return row->name == output.pass; });
   if (&format == exrFormat()) return encodedPass(**pass, f, words);
-  return encodePicture(format, (*pass)->shown(valuesOf(**pass, f), settings), settings.rounding, words);
+  return encodePicture(format, (*pass)->shown(valuesOf(**pass, f), settings), encoding, words);
 }
 
 }  // namespace

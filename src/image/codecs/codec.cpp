@@ -71,17 +71,17 @@ bool isTga(std::string_view b) {
 
 // --- the rows ----------------------------------------------------------------------------------------
 
-std::string encodePng(const Picture& picture, Rounding rounding, const Metadata& metadata) {
-  return withPngText(encodePngRows(toBytes(picture, rounding)), metadata);
+std::string encodePng(const Picture& picture, const Encoding& how, const Metadata& metadata) {
+  return withPngText(encodePngRows(toBytes(picture, how.rounding)), metadata);
 }
-std::string encodeBmp(const Picture& picture, Rounding rounding, const Metadata&) {
-  return encodeBmpByStb(toBytes(picture, rounding));
+std::string encodeBmp(const Picture& picture, const Encoding& how, const Metadata&) {
+  return encodeBmpByStb(toBytes(picture, how.rounding));
 }
-std::string encodeTga(const Picture& picture, Rounding rounding, const Metadata&) {
-  return encodeTgaByStb(toBytes(picture, rounding));
+std::string encodeTga(const Picture& picture, const Encoding& how, const Metadata&) {
+  return encodeTgaByStb(toBytes(picture, how.rounding));
 }
-std::string encodeJpeg(const Picture& picture, Rounding rounding, const Metadata& metadata) {
-  return withJpegComments(encodeJpegByStb(toBytes(picture, rounding)), metadata);
+std::string encodeJpeg(const Picture& picture, const Encoding& how, const Metadata& metadata) {
+  return withJpegComments(encodeJpegByStb(toBytes(picture, how.rounding), how.jpegQuality), metadata);
 }
 Raster decodePng(std::string_view bytes, const PictureLimits& limits) {
   checkPngChunks(bytes);
@@ -255,11 +255,11 @@ void checkEncodable(const PictureFormat& format, int width, int height) {
               width >= 1 && height >= 1 ? ".exr and .ppm hold the largest pictures" : "");
 }
 
-std::string encodePicture(const PictureFormat& format, const Picture& picture, Rounding rounding,
+std::string encodePicture(const PictureFormat& format, const Picture& picture, const Encoding& encoding,
                           const Metadata& metadata) {
   checkEncodable(format, picture.width, picture.height);
   try {
-    return format.encode(picture, rounding, metadata);
+    return format.encode(picture, encoding, metadata);
   } catch (const std::bad_alloc&) {
     throw Error(Fault::limit, "not enough memory to write this picture as " + std::string(format.name));
   } catch (const Error&) {  // the time is over
@@ -276,9 +276,9 @@ std::string encodePng(const Raster& raster) {
   return encodePngRows(raster);
 }
 
-void writePicture(const std::string& path, const Picture& picture, Rounding rounding,
+void writePicture(const std::string& path, const Picture& picture, const Encoding& encoding,
                   const Metadata& metadata) {
-  writeFile(path, encodePicture(pictureFormatFor(path), picture, rounding, metadata));
+  writeFile(path, encodePicture(pictureFormatFor(path), picture, encoding, metadata));
 }
 
 const PictureFormat& pictureFormatOf(std::string_view bytes, const std::string& name) {

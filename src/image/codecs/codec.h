@@ -18,6 +18,15 @@
 
 namespace trace {
 
+/// How colours become the bytes of a file.
+struct Encoding {
+  static constexpr int kJpegQuality = 95;  ///< from 91 on the colours of every pixel are kept
+
+  Rounding rounding;  ///< of 8-bit formats
+  int jpegQuality;    ///< 1 to 100
+  Encoding(Rounding r = Rounding::truncate, int quality = kJpegQuality) : rounding(r), jpegQuality(quality) {}
+};
+
 /// The limits of reading. Checked in a file's header, before memory is allocated for its pixels.
 struct PictureLimits {
   std::uint64_t memory = std::uint64_t{4} << 30;  ///< bytes, for the picture and what its decoder needs
@@ -33,9 +42,8 @@ struct PictureFormat {
   int mostSide;                                ///< the largest width and height
   std::size_t mostPixels;
 
-  /// The file, of a picture that passed checkEncodable(). Rounding matters only to 8-bit formats. Null for a
-  /// format that is only read.
-  std::string (*encode)(const Picture&, Rounding, const Metadata&);
+  /// The file, of a picture that passed checkEncodable(). Null for a format that is only read.
+  std::string (*encode)(const Picture&, const Encoding&, const Metadata&);
   /// Whether the bytes begin like a file of this format.
   bool (*recognise)(std::string_view bytes);
   /// Throws a std::exception whose what() is the reason why the bytes are no sound file, Error(Fault::limit)
@@ -66,15 +74,15 @@ const PictureFormat& pictureFormatFor(std::string_view path);
 void checkEncodable(const PictureFormat& format, int width, int height);
 
 /// The bytes of the file. Throws as checkEncodable(), or Error(Fault::io).
-std::string encodePicture(const PictureFormat& format, const Picture& picture,
-                          Rounding rounding = Rounding::truncate, const Metadata& metadata = {});
+std::string encodePicture(const PictureFormat& format, const Picture& picture, const Encoding& encoding = {},
+                          const Metadata& metadata = {});
 
 /// The bytes of a PNG file of the raster, with its transparency. Precondition: its samples are bytes. Throws
 /// Error(Fault::limit) for one that is too large.
 std::string encodePng(const Raster& raster);
 
 /// Encodes by the suffix and writes; the file appears whole or not at all. Throws Error.
-void writePicture(const std::string& path, const Picture& picture, Rounding rounding = Rounding::truncate,
+void writePicture(const std::string& path, const Picture& picture, const Encoding& encoding = {},
                   const Metadata& metadata = {});
 
 /// The row that the bytes of a picture file belong to. Throws as decodePicture().

@@ -205,7 +205,7 @@ HdrSize hdrSize(std::string_view line) {
 
 }  // namespace
 
-std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata) {
+std::string encodeHdr(const Picture& picture, const Encoding&, const Metadata& metadata) {
   const std::string size = "-Y " + std::to_string(picture.height) + " +X " + std::to_string(picture.width);
   std::string file = withCommentLines("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + size + "\n", metadata);
   file.reserve(file.size() + 4 * picture.pixels.size());

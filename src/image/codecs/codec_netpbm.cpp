@@ -181,11 +181,11 @@ struct PfmHead {
 
 }  // namespace
 
-std::string encodePpm(const Picture& picture, Rounding rounding, const Metadata& metadata) {
+std::string encodePpm(const Picture& picture, const Encoding& how, const Metadata& metadata) {
   const std::string header =
       "P6\n" + std::to_string(picture.width) + " " + std::to_string(picture.height) + "\n255\n";
   std::string file = withCommentLines(header, metadata);
-  const Bytes bytes = toBytes(picture, rounding);
+  const Bytes bytes = toBytes(picture, how.rounding);
   file.append(reinterpret_cast<const char*>(bytes.rgb.data()), bytes.rgb.size());
   return file;
 }
@@ -221,7 +221,7 @@ std::string ppmRemark(std::string_view bytes) {
   return more ? "the first of several pictures is shown" : "";
 }
 
-std::string encodePfm(const Picture& picture, Rounding, const Metadata&) {
+std::string encodePfm(const Picture& picture, const Encoding&, const Metadata&) {
   std::string file =
       "PF\n" + std::to_string(picture.width) + " " + std::to_string(picture.height) + "\n-1.0\n";
   file.reserve(file.size() + 12 * picture.pixels.size());

@@ -22,6 +22,7 @@ namespace trace {
 /// stb keeps sizes in int and doubles its buffers: 2^29 bytes of levels are the most that is safe.
 inline constexpr std::size_t kMostStbPixels = (std::size_t{1} << 29) / 3;
 
+struct Encoding;
 struct PictureLimits;
 
 /// How many pixels a byte of a file can stand for. Deflate packs a thousandfold; a picture of one colour
@@ -48,7 +49,8 @@ void forEachJpegSegment(std::string_view jpeg,
                         const std::function<void(std::uint32_t marker, std::string_view data)>& visit);
 std::string encodeBmpByStb(const Bytes& bytes);
 std::string encodeTgaByStb(const Bytes& bytes);
-std::string encodeJpegByStb(const Bytes& bytes);
+/// Quality 1 to 100.
+std::string encodeJpegByStb(const Bytes& bytes, int quality);
 /// PNG, TGA or JPEG.
 Raster decodeByStb(std::string_view bytes, const PictureLimits& limits);
 /// As EXIF's orientation says. A JPEG may lack its end marker.
@@ -68,7 +70,7 @@ Raster decodeBmp(std::string_view bytes, const PictureLimits& limits);
 
 std::string bmpRemark(std::string_view bytes);
 std::string pngRemark(std::string_view bytes);
-std::string encodePpm(const Picture& picture, Rounding rounding, const Metadata& metadata);
+std::string encodePpm(const Picture& picture, const Encoding& how, const Metadata& metadata);
 
 /// Puts the parts of a remark together.
 inline void remark(std::string& all, std::string_view part) {
@@ -80,14 +82,14 @@ std::string profileRemark(std::string_view profile);
 /// P1 to P7.
 Raster decodePpm(std::string_view bytes, const PictureLimits& limits);
 std::string ppmRemark(std::string_view bytes);
-std::string encodePfm(const Picture& picture, Rounding, const Metadata&);
+std::string encodePfm(const Picture& picture, const Encoding&, const Metadata&);
 Raster decodePfm(std::string_view bytes, const PictureLimits& limits);
 std::string pfmRemark(std::string_view bytes);
-std::string encodeHdr(const Picture& picture, Rounding, const Metadata& metadata);
+std::string encodeHdr(const Picture& picture, const Encoding&, const Metadata& metadata);
 Raster decodeHdr(std::string_view bytes, const PictureLimits& limits);
 std::string hdrRemark(std::string_view bytes);
 
-std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata);
+std::string encodeExr(const Picture& picture, const Encoding&, const Metadata& metadata);
 Raster decodeExr(std::string_view bytes, const PictureLimits& limits);
 Raster decodeExrLayer(std::string_view bytes, const PictureLimits& limits, const std::string& layer);
 std::string exrRemark(std::string_view bytes);

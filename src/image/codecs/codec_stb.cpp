@@ -48,8 +48,6 @@
 namespace trace {
 namespace {
 
-constexpr int kJpegQuality = 95;  // from 91 on stb keeps the colours of every pixel
-
 void append(void* file, void* bytes, int count) {
   checkBudget();
   static_cast<std::string*>(file)->append(static_cast<const char*>(bytes), static_cast<size_t>(count));
@@ -222,9 +220,9 @@ std::string encodeTgaByStb(const Bytes& b) {
   });
 }
 
-std::string encodeJpegByStb(const Bytes& b) {
+std::string encodeJpegByStb(const Bytes& b, int quality) {
   return written([&](auto to, void* file) {
-    return stbi_write_jpg_to_func(to, file, b.width, b.height, 3, b.rgb.data(), kJpegQuality);
+    return stbi_write_jpg_to_func(to, file, b.width, b.height, 3, b.rgb.data(), quality);
   });
 }
 

@@ -80,7 +80,7 @@ void addChannels(ExrFile& file, const Picture& picture, std::span<const std::str
   }
 }
 
-std::string encodeExr(const Picture& picture, Rounding, const Metadata& metadata) {
+std::string encodeExr(const Picture& picture, const Encoding&, const Metadata& metadata) {
   ExrFile file{picture.width, picture.height, {0, 0, picture.width, picture.height}, {}, metadata, {}};
   const std::string names[] = {"R", "G", "B"};
   addChannels(file, picture, names);
