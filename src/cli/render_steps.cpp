@@ -156,11 +156,15 @@ void reportLosses(const Session& session, const RenderResult& result, const Cons
   const BudgetScope unlimited(nullptr);  // the time may be over
   if (const double removed = static_cast<double>(result.statistics.lightRemoved) / Statistics::kLightParts;
       removed > 0) {
-    double kept = 0;  // by this run
-    for (const Color& c : session.film().picture().pixels) kept += luminanceOf(c);
-    const Size size = session.size();
-    kept *= static_cast<double>(result.statistics.rays[static_cast<std::size_t>(RayKind::camera)]) /
-            (static_cast<double>(size.width) * size.height);
+    const Picture picture = session.film().picture(), counts = session.film().sampleCounts();
+    double light = 0, samples = 0;
+    for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
+      light += luminanceOf(picture.pixels[i]) * counts.pixels[i].r;
+      samples += counts.pixels[i].r;
+    }
+    const auto cast =  // by this run, and not by those before it that left a checkpoint
+        static_cast<double>(result.statistics.rays[static_cast<std::size_t>(RayKind::camera)]);
+    const double kept = light * cast / std::max(samples, 1.0);
     char text[120];
     std::snprintf(
         text, sizeof text,

@@ -152,6 +152,18 @@ bool hasSuffix(const SceneFormat& format, const std::string& suffix) {
   return std::find(format.suffixes.begin(), format.suffixes.end(), suffix) != format.suffixes.end();
 }
 
+/// A scene that somebody began to write without its first line.
+Error lacksFirstLine(const std::string& file, std::string_view bytes) {
+  constexpr std::size_t kLongest = 40;
+  std::string line(bytes.substr(0, bytes.find_first_of("\r\n")));
+  const std::string found = line.empty()              ? "an empty line"
+                            : line.size() <= kLongest ? "\"" + line + "\""
+                                                      : "\"" + line.substr(0, kLongest - 3) + "\"...";
+  return {Fault::scene, Place{file, 1, 1, std::move(line)},
+          "expected Trace 1 on the first line, found " + found,
+          "every .ray file begins with the line Trace 1, or SBT-raytracer 1.1 as the courses have it"};
+}
+
 /// The row for a file.
 struct FoundFormat {
   const SceneFormat& row;
@@ -179,6 +191,7 @@ FoundFormat formatOf(const std::string& file, std::string_view bytes, const char
   const std::string kind = kindOf(bytes);
   const bool isText = kind == "an empty file" || kind == "only white space" || kind == "other text";
   const bool lacksHeader = isText && isNamed && suffix == ".ray";
+  if (lacksHeader && kind == "other text") throw lacksFirstLine(file, bytes);
   throw Error(Fault::scene, Place{file, 0, 0, {}}, found + kind,
               lacksHeader
                   ? "the first line of a .ray file is Trace 1, or SBT-raytracer 1.1 as the courses have it"

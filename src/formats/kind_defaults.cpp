@@ -45,11 +45,13 @@ bool isGiven(const Scene& scene, std::string_view option) {
                      [&](const Choice& choice) { return choice.option == option; });
 }
 
-/// The daylight sky of a friendly afternoon: colours from straight down to straight up.
+/// The daylight sky of a friendly afternoon: colours from straight down to straight up. It is palest at the
+/// horizon, where it is brighter than the ground, which reflects a quarter of the light that it gets.
 Background sky() {
   Background background;
-  background.gradient = {{0.3, 0.27, 0.24}, {0.42, 0.4, 0.37}, {0.75, 0.85, 0.95}, {0.2, 0.42, 0.85}};
-  background.elevations = {-90, -3, 1, 60};
+  background.gradient = {{0.34, 0.32, 0.3}, {0.42, 0.4, 0.37}, {0.5, 0.48, 0.45},  {2.1, 2.12, 2.12},
+                         {1.3, 1.52, 1.85}, {0.8, 0.98, 1.35}, {0.43, 0.56, 0.84}, {0.28, 0.37, 0.58}};
+  background.elevations = {-90, -25, -1, 0.5, 4, 12, 32, 65};
   return background;
 }
 

@@ -34,6 +34,7 @@ class ParsedFields {
       : text_(textOf(fields)), syntax_(label, text_), findings_(syntax_, scene, messages_, nullptr) {
     trace::SceneTime moment(0);
     settle(syntax_, moment, scene.inputs);
+    syntax_.throwMistakes();
   }
 
   rayfile::Findings& findings() { return findings_; }

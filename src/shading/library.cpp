@@ -251,11 +251,11 @@ constexpr std::array kFinishes{
            }},
     Finish{"walnut", "wood", "varnished, dark",
            [] {
-             return with(glazed(Color(1), 0.25), board({0.32, 0.19, 0.11}, {0.13, 0.07, 0.04}, 9, 0.3, 1));
+             return with(glazed(Color(1), 0.25), board({0.22, 0.125, 0.07}, {0.08, 0.042, 0.025}, 9, 0.3, 1));
            }},
     Finish{"mahogany", "wood", "polished, red-brown",
            [] {
-             return with(glazed(Color(1), 0.1), board({0.36, 0.12, 0.06}, {0.2, 0.05, 0.02}, 14, 0.4));
+             return with(glazed(Color(1), 0.1), board({0.23, 0.08, 0.04}, {0.11, 0.032, 0.016}, 8, 0.5, 1.4));
            }},
     Finish{"ebony", "wood", "polished, nearly black",
            [] {

@@ -12,6 +12,7 @@
 #include "app/session/session.h"
 #include "app/view/drawing.h"
 #include "app/view/ray_drawing.h"
+#include "base/files/file.h"
 #include "base/sanitized.h"
 #include "cli/program.h"
 #include "image/codecs/codec.h"
@@ -41,6 +42,23 @@ struct Explain : testing::Test {
     return program.err();
   }
 };
+
+TEST_F(Explain, NamesTheCallsThatMadeAnObject) {
+  writeFile(folder / "poles.ray",
+            "Trace 1\ncamera { position = (1, 0, 9); look_at = (1, 0, 0); fov = 40 }\n"
+            "define pole(high) { scale(0.4, high, 0.4) { box { } } }\n"
+            "for i in 0..2 { translate(i, 0, 0) { pole(i + 1) } }\n");
+  const std::vector<std::string> pixel{"--pixel", "20,15", "-w", "40", "--quality", "draft"};
+  const auto of = [&](const char* scene) {
+    std::vector<std::string> words{"explain", scene};
+    words.insert(words.end(), pixel.begin(), pixel.end());
+    return out(words);
+  };
+  const std::string one = of("poles.ray");
+  EXPECT_NE(one.find("made in pole(high = 2) at poles.ray:4:38, in i = 1 at poles.ray:4:1"), one.npos) << one;
+  writeFile(folder / "pole.ray", "Trace 1\nlet high = 2\nscale(0.4, high, 0.4) { box { } }\n");
+  EXPECT_EQ(of("pole.ray").find("made in"), std::string::npos);
+}
 
 TEST_F(Explain, TextTellsEveryRayAndThatTheSumIsThePicture) {
   const std::string text = out({"explain", kScenes + "glass.ray", "--pixel", "200,120", "--sample=3"});

@@ -408,7 +408,7 @@ TEST(KindDefaults, LeaveLightThatIsThereAlone) {
     EXPECT_TRUE(scene.background.gradient.empty()) << light;
     EXPECT_LE(scene.lights.size(), 1u) << light;
   }
-  EXPECT_EQ(read("Trace 1\nbox { }").background.gradient.size(), 4u);
+  EXPECT_EQ(read("Trace 1\nbox { }").background.gradient.size(), 8u);
 }
 
 TEST(KindDefaults, StandBelowTheFileAndTheCommandLine) {
@@ -424,6 +424,20 @@ TEST(KindDefaults, StandBelowTheFileAndTheCommandLine) {
 
 const std::string kGlass =
     "translate(2, 0, 0) { sphere { material = { transmissive = (1, 1, 1); index = 1.5 } } }\n";
+
+TEST(KindDefaults, TheDefaultSkyIsPalestAtTheHorizon) {
+  const Background sky = read("Trace 1\nsphere { }").background;
+  const auto light = [&](Real elevation) { return luminanceOf(sky.gradientAt(elevation)); };
+  const auto blueness = [&](Real elevation) {
+    return sky.gradientAt(elevation).b / sky.gradientAt(elevation).r;
+  };
+  const std::vector<Real> heights{1, 5, 10, 20, 40, 90};
+  for (std::size_t i = 1; i < heights.size(); ++i) {
+    EXPECT_LT(light(heights[i]), light(heights[i - 1])) << heights[i];
+    EXPECT_GT(blueness(heights[i]), blueness(heights[i - 1])) << heights[i];
+  }
+  for (const Real below : {-1.0, -20.0, -90.0}) EXPECT_LT(light(below), light(20)) << below;
+}
 
 TEST(QualityOption, PicksTheIntegratorThatTheSceneNeeds) {
   const auto integrator = [](const std::string& text, const std::string& quality,
@@ -441,6 +455,9 @@ TEST(QualityOption, PicksTheIntegratorThatTheSceneNeeds) {
   EXPECT_EQ(integrator(lamp + "union { sphere { } " + kGlass + " }", "final"), IntegratorKind::bdpt)
       << "glass within a solid";
   EXPECT_EQ(integrator(lamp + kGlass, "good"), IntegratorKind::path);
+  EXPECT_EQ(integrator("square { material = { emissive = (6, 6, 6) } }\n" + kGlass, "final"),
+            IntegratorKind::path)
+      << "an emitter is hit by paths, also through glass";
   EXPECT_EQ(integrator(lamp + kGlass, "final", {{"integrator", "photon", {}}}), IntegratorKind::photon);
 }
 

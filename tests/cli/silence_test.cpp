@@ -35,6 +35,12 @@ point_light { position = (-6, 9, 6); color = (1, 1, 1); radius = 1; }
 rotate(1, 0, 0, -1.5708, scale(10, square { material = { library = oak; } }))
 translate(-1, 0.8, 0, scale(0.8, sphere { material = { library = "red plastic"; } }))
 )";
+  static constexpr const char* kNoisy =
+      "SBT-raytracer 1.0\nbackground { color = (0.02, 0.02, 0.02); }\n"
+      "camera { position = (0, 1, 5); look_at = (0, 1, 0); updir = (0, 1, 0); }\n"
+      "translate(0, 4, 0, rotate(1, 0, 0, 1.5708, square { material = { emissive = (150, 150, "
+      "150); } }))\nrotate(1, 0, 0, -1.5708, scale(10, square { material = { diffuse = "
+      "(0.7, 0.7, 0.7); } }))\n";
 };
 
 TEST_F(Silence, AFirstSceneThatIsBlackIsToldWithAColourThatHelps) {
@@ -94,6 +100,42 @@ TEST_F(Silence, ACameraThatLooksAwayIsToldWhereToLook) {
   EXPECT_FALSE(contains(run({"there.ray", "there.png", "-w", "40"}).err, "no object is in the picture"));
 }
 
+TEST_F(Silence, OneCauseIsToldOnceWithItsCure) {
+  const auto warnings = [&](const std::string& text, const std::string& what, const std::string& hint) {
+    write("one.ray", "Trace 1\n" + text);
+    const std::string told = run({"one.ray", "one.png", "-w", "40", "--quality", "draft"}).err;
+    EXPECT_TRUE(contains(told, what)) << told;
+    EXPECT_TRUE(contains(told, hint)) << told;
+    EXPECT_EQ(told.find("warning: "), told.rfind("warning: ")) << told;
+    return told;
+  };
+  const std::string dark = warnings("background { color = (0, 0, 0) }\nsphere { }", "the scene has no light",
+                                    "hint: point_light { position = ");
+  EXPECT_FALSE(contains(dark, "ambient"));
+  EXPECT_FALSE(contains(dark, "attenuation"));
+  warnings(
+      "camera { position = (0, 0, 0.2); look_at = (0, 0, -5) }\nsphere { }",
+      "one.ray:3:1: warning: 100 % of the picture is darker than level 2 of 255, its mean level is 0; the "
+      "camera is inside this sphere",
+      "move the camera's position out of it");
+  warnings("sphere { material = { diffuse = (255, 0, 0) } }",
+           "diffuse of material: expected 0 to 1, found 255", "a colour goes from 0 to 1");
+  warnings(
+      "translate(1e30, 0, 0) { sphere { } }\nsphere { }\ncamera { position = (0, 2, 9); look_at = (0, 0, 0) "
+      "}",
+      "one.ray:2:25: warning: the sphere is 1e+30 away, more than 1e12 times its size", "place it nearer");
+}
+
+TEST_F(Silence, TheExposureIsToldWithThatOfTheScene) {
+  write("bright.ray", "Trace 1\nsettings { exposure = 0.8 }\nsphere { }");
+  const std::string told = run({"bright.ray", "bright.png", "-w", "40", "--quality", "draft"}).err;
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(told, match,
+                                std::regex(R"(exposure (\S+) stops, with --exposure 0\.8 in all (\S+);)")))
+      << told;
+  EXPECT_NEAR(std::stod(match[1]) + 0.8, std::stod(match[2]), 1e-9);
+}
+
 TEST_F(Silence, WhatIsMeantToBeDarkIsNot) {
   write("small.ray", R"(SBT-raytracer 1.0
 camera { position = (0, 0, 40); viewdir = (0, 0, -1); updir = (0, 1, 0); }
@@ -116,7 +158,7 @@ translate(0,1,0, sphere { material = { library = glass; } })
 )");
   const Run r = run({"glass.ray", "path.png"});
   EXPECT_TRUE(contains(r.err, "glass.ray:3:1: warning: sphere (glass.ray:7) has no caustics"));
-  EXPECT_TRUE(contains(r.err, "rays do not see a light of this kind"));
+  EXPECT_TRUE(contains(r.err, "paths cannot hit a light of this kind"));
   EXPECT_TRUE(contains(r.err, "hint: --integrator bdpt or photon"));
   EXPECT_FALSE(contains(r.err, "visible = true")) << "which this light refuses";
   const Run lint = run({"lint", "glass.ray"});
@@ -173,13 +215,7 @@ TEST_F(Silence, APictureOfOneColourIsToldWithWhereToLook) {
 }
 
 TEST_F(Silence, ANoisyPictureIsToldWithTheSamplesThatHalveItsError) {
-  const std::string scene =
-      "SBT-raytracer 1.0\nbackground { color = (0.02, 0.02, 0.02); }\n"
-      "camera { position = (0, 1, 5); look_at = (0, 1, 0); updir = (0, 1, 0); }\n"
-      "translate(0, 4, 0, rotate(1, 0, 0, 1.5708, square { material = { emissive = (150, 150, "
-      "150); } }))\nrotate(1, 0, 0, -1.5708, scale(10, square { material = { diffuse = "
-      "(0.7, 0.7, 0.7); } }))\n";
-  write("noisy.ray", scene);
+  write("noisy.ray", kNoisy);
   const auto errorWith = [&](const std::string& spp) {
     const Run r = run({"noisy.ray", "noisy.png", "-w", "48", "--integrator", "path", "--spp", spp});
     std::smatch told;
@@ -196,6 +232,43 @@ TEST_F(Silence, ANoisyPictureIsToldWithTheSamplesThatHalveItsError) {
   EXPECT_FALSE(contains(
       run({"noisy.ray", "noisy.png", "-w", "48", "--integrator", "path", "--spp", "4", "--denoise"}).err,
       "noisy:"));
+}
+
+TEST_F(Silence, AMissedNoiseTargetIsToldWithTheSamplesThatReachIt) {
+  write("noisy.ray", kNoisy);
+  const auto lastLine = [&](const std::string& spp, const char* denoise) {
+    return run({"noisy.ray", "noisy.png", "-w", "48", "--integrator", "path", "--noise-target", "0.02",
+                "--spp", spp, denoise})
+        .err;
+  };
+  for (const char* denoise : {"--denoise", "--no-denoise"}) {
+    const std::string missed = lastLine("32", denoise);
+    std::smatch cure;
+    ASSERT_TRUE(std::regex_search(
+        missed, cure,
+        std::regex(R"(% of the pixels miss the noise target of 5\.1 levels; --spp (\d+) brings)")))
+        << missed;
+    EXPECT_EQ(contains(missed, "before denoising"), denoise == std::string("--denoise"));
+    EXPECT_FALSE(contains(lastLine(cure[1], denoise), "miss the noise target"));
+  }
+}
+
+TEST_F(Silence, TheFireflyLimitCountsTheLightOfTheRegion) {
+  const auto taken = [&](const std::string& region) {
+    const Run r =
+        run({test::sourceFolder() + "/scenes/glass.ray", "glass.png", "-w", "64", "--height", "48", "--spp",
+             "8", "--integrator", "path", "--firefly-limit", "0.3", "--region", region, "--resume=never"});
+    std::smatch told;
+    return std::regex_search(r.err, told, std::regex(R"(--firefly-limit took away (\S+) %)"))
+               ? std::stod(told[1])
+               : 0.0;
+  };
+  const double whole = taken("0,0,64,48");
+  const std::vector<double> parts{taken("0,0,64,24"), taken("0,24,64,24")};
+  EXPECT_GT(whole, 0);
+  EXPECT_LE(*std::min_element(parts.begin(), parts.end()), whole);
+  EXPECT_GE(*std::max_element(parts.begin(), parts.end()), whole);
+  EXPECT_LT(parts[0] + parts[1], 3 * whole);
 }
 
 TEST_F(Silence, FirefliesAreToldWithTheLimitThatRemovesThem) {

@@ -21,28 +21,30 @@ TEST(Format, SaysWhatAFileIsThatIsNoScene) {
   const std::pair<std::string_view, const char*> cases[] = {
       {"", "an empty file"},
       {" \r\n", "only white space"},
-      {"hello", "other text"},
-      {"SBT-ray 1.0", "other text"},
       {" {\"a\": 1}", "what looks like JSON"},
       {"[1]", "what looks like JSON"},
       {"<html>", "what looks like XML or HTML"},
       {"\x89PNG\r\n", "a PNG picture"},
       {"\xff\xd8\xff\xe0", "a JPEG picture"},
       {std::string_view("a\0b", 3), "binary data"},
-      {"/* not closed SBT-raytracer 1.0", "other text"},
   };
   std::string formats;
   for (const SceneFormat& format : sceneFormats())
     formats += (formats.empty() ? "" : ", ") + std::string(format.name);
   const auto hintFor = [&](std::string_view kind) {
-    const bool isText = kind == "an empty file" || kind == "only white space" || kind == "other text";
-    return isText ? "the first line of a .ray file is Trace 1, or SBT-raytracer 1.1 as the courses have it"
-                  : "formats Trace reads: " + formats;
+    return kind == "an empty file" || kind == "only white space"
+               ? "the first line of a .ray file is Trace 1, or SBT-raytracer 1.1 as the courses have it"
+               : "formats Trace reads: " + formats;
   };
   for (const auto& [bytes, kind] : cases)
     EXPECT_EQ(errorsOfFile(bytes), std::string("0:0: named .ray, but ") +
                                        (bytes.empty() ? "it is " : "holds ") + std::string(kind) + " [" +
                                        hintFor(kind) + "]");
+  for (const std::string text : {"hello", "SBT-ray 1.0", "/* not closed SBT-raytracer 1.0"})
+    EXPECT_EQ(
+        errorsOfFile(text + "\nsphere { }"),
+        "1:1: expected Trace 1 on the first line, found \"" + text +
+            "\" [every .ray file begins with the line Trace 1, or SBT-raytracer 1.1 as the courses have it]");
 }
 
 TEST(Format, ReadsFilesByName) {

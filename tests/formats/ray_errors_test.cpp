@@ -185,8 +185,14 @@ TEST(RayErrors, WhatOtherProgramsSayInAnotherWayHasAHint) {
         << text << "\n"
         << errorsOfFile("Trace 1\n" + text);
   };
-  for (const char* size : {"radius", "size", "height"})
+  for (const char* size : {"radius", "size", "width"})
     holds("box { " + std::string(size) + " = 2 }", "scale(2) { box { } } makes it twice as large");
+  holds("cylinder { height = 2 }", "scale(1, 1, 2) { cylinder { } } makes it twice as long along z");
+  holds("for (i = 0; i < 5; i++) { sphere { } }", "for i in 0..4 { } makes five turns, from i = 0 to i = 4");
+  holds("sphere { material = { library = red marble } }",
+        "a name of several words stands in quotation marks");
+  EXPECT_EQ(errorsOfFile("Trace 1\nsphere { material = { library = red marble } }").find('\n'),
+            std::string::npos);
   holds("sphere { material = { colour = (1, 0, 0) } }", "diffuse = (red, green, blue) is its colour");
   holds("sphere { center = (1, 2, 3) }", "translate(1, 2, 3) { sphere { } } puts it there");
   holds("cone { position = (1, 2, 3) }", "translate(1, 2, 3) { cone { } } puts it there");
@@ -196,7 +202,7 @@ TEST(RayErrors, WhatOtherProgramsSayInAnotherWayHasAHint) {
   holds("sphere { material = { library = red marble } }",
         "a name of several words stands in quotation marks: \"red marble\"");
   holds("rectangle_light { direction = (0, -1, 0) }", "u and v are its edges");
-  holds("let n = 4\nn = n + 1", "let n = ... gives a name its value, once");
+  holds("let n = 4\nn = n + 1", "a name gets its value once");
   EXPECT_EQ(errorsOfFile("Trace 1\nrotate y { box { } }\nbox { }"),
             "2:10: expected an angle, as in rotate y 30 deg { }, found \"{\"");
 }

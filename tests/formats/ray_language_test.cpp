@@ -273,7 +273,13 @@ TEST(RayLanguage, ErrorsNameThePlaceAndWhatLedThere) {
       {"translate(1 / 0, 0, 0, sphere { })", "2:13: division by 0"},
       {"translate(width / 2, 0, 0, sphere { })",
        "2:11: no value is called \"width\" [text stands in quotation marks]"},
-      {"define g(n) { }\ng()", "3:1: g: expected a value for n, found none"},
+      {"define g(n) { }\ng()", "3:1: g: expected a value for n, found none [as in g(n)]"},
+      {"let n = 4\nn = n + 1",
+       "3:1: \"n\" has its value from test.ray:2:1 [a name gets its value once; let and another name hold "
+       "another value]"},
+      {"let b = 4\nlet c = 2 b",
+       "3:11: expected an object, found b, which is 4 [an operator joins values, as in 2 * b; (1, b) is a "
+       "list]"},
       {"define g(n) { }\ng(1, 2)", "3:6: g: expected 1 argument, found more"},
       {"define g(radius) { }\ng(radios = 1)",
        "3:3: g: expected a parameter of (radius), found radios = 1 [did you mean \"radius\"?]"},
@@ -305,6 +311,49 @@ TEST(RayLanguage, ErrorsNameThePlaceAndWhatLedThere) {
             "2:40: sphere: expected a field, as in name = value, found \"nonsense\" (2 times) [in i = 1 at "
             "test.ray:2:15, in g(r = "
             "7) at test.ray:3:1]");
+}
+
+TEST(RayLanguage, AllErrorsComeInTheOrderOfTheText) {
+  EXPECT_EQ(
+      errorsOfFile("Trace 1\n"
+                   "define gear(n) { sphere { } translate(m, 0, 0) { sphere { } } }\n"
+                   "sphere { radius = 2 }\n"
+                   "geer(3)\n"
+                   "gear 3\n"
+                   "let wide = 1 / 0\n"
+                   "scale(wide) { box { } }\n"
+                   "translate(wide, 0, 0) { torus { hole = 1 } }\n"
+                   "gear(3)\n"
+                   "for i in 1..50 { scale(j) { box { } } }\n"
+                   "sphere { material = { diffuse = (1, 2) } }"),
+      "2:39: no value is called \"m\" [did you mean \"n\"?; in gear(n = 3) at test.ray:9:1]\n"
+      "3:10: sphere has no field \"radius\" [scale(2) { sphere { } } makes it twice as large; scale(1, 2, 3) "
+      "{ sphere { } }, along x, y and z]\n"
+      "4:1: \"geer\" is not known\n"
+      "5:1: gear: expected a value for n, found none [as in gear(n)]\n"
+      "6:14: division by 0\n"
+      "10:24: no value is called \"j\" (50 times) [did you mean \"i\"?; in i = 1 at test.ray:10:1]\n"
+      "11:33: diffuse: expected (red, green, blue), found (1, 2)");
+}
+
+TEST(RayLanguage, AnEndlessRecursionIsOneErrorAndSoon) {
+  EXPECT_EQ(
+      errorsOfFile("Trace 1\ndefine a(n) { a(n + 1) a(n + 2) }\na(0)\nsphere { hole = 1 }").substr(0, 75),
+      "2:15: expected at most 140 objects and calls within one another, found more");
+  EXPECT_NE(errorsOfFile("Trace 1\nlet f(n) = f(n + 1)\nscale(f(0)) { box { } }").find("and 198 more there"),
+            std::string::npos);
+}
+
+TEST(RayLanguage, AFloodOfObjectsEndsEarly) {
+  try {
+    load("for i in 0..9999 { for j in 0..9999 { translate(i, j, 0) { sphere { } } } }");
+    ADD_FAILURE() << "it fits";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.fault(), Fault::limit);
+    const std::string hint = error.messages().front().hint;
+    EXPECT_LT(std::stoi(hint.substr(hint.find("done ") + 5)), 1'000'000) << hint;
+    EXPECT_NE(hint.find("rows { }"), hint.npos) << hint;
+  }
 }
 
 TEST(RayLanguage, AnErrorInALoopIsOneWithItsNumber) {

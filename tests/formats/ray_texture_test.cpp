@@ -31,6 +31,35 @@ TEST(RayTexture, StandsInPlaceOfAConstant) {
   EXPECT_EQ(phongOf(material).shininess, 40);
 }
 
+TEST(RayTexture, PatternFieldsMoveAllPatternsOfAMaterial) {
+  const std::string marble = "library = \"green marble\"; opacity = checker { }; ";
+  const auto at = [&](const std::string& fields, const char* field, const Vec3& point) -> Real {
+    TexturePlace place;
+    place.point = point;
+    const std::vector<FieldTexture> textures = texturesOf(marble + fields);
+    const Texture* texture = textureOf(textures, field);
+    return texture ? luminance(texture->at(place)) : -1;
+  };
+  const Vec3 point{0.3, 0.45, -0.2};
+  for (const char* field : {"diffuse", "opacity"}) {
+    EXPECT_NEAR(at("pattern_translate = (1, 2, 3)", field, point + Vec3{1, 2, 3}), at("", field, point),
+                1e-9);
+    EXPECT_NEAR(at("pattern_scale = 4", field, point * 4), at("", field, point), 1e-9);
+    EXPECT_NEAR(at("pattern_translate = (8, 0, 0); pattern_scale = (2, 4, 8)", field,
+                   Vec3{2 * point.x + 8, 4 * point.y, 8 * point.z}),
+                at("", field, point), 1e-9)
+        << "in the order of textures: scaled, then moved";
+    EXPECT_EQ(at("pattern_rotate = (0, 0, 0)", field, point), at("", field, point));
+    EXPECT_GE(at("", field, point), 0);
+  }
+  EXPECT_EQ(load("sphere { material = { library = gold; pattern_scale = 2 } }").warnings.at(0).what,
+            "pattern_scale and the like: this material has no pattern");
+  EXPECT_EQ(texturesOf("diffuse = map(\"a.png\"); pattern_scale = 2"), texturesOf("diffuse = map(\"a.png\")"))
+      << "a picture lies in u and v";
+  EXPECT_NE(errorsOf("sphere { material = { pattern_scale = big } }"), "");
+  EXPECT_NE(errorsOfFile("Trace 1\nsphere { material = { pattern_size = 2 } }"), "");
+}
+
 Real other(Real value) { return value / 2 + 0.125; }
 int other(int value) { return value + 1; }
 bool other(bool value) { return !value; }

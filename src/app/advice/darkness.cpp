@@ -172,6 +172,21 @@ std::optional<Cure> strongerLight(const Scene& scene, const Settings& settings, 
   return best;
 }
 
+/// The eye is in an opaque solid, and sees the inside of it.
+std::optional<Cure> outOfSolid(const Scene& scene, const World& world) {
+  Statistics uncounted;
+  const Ray ray = world.camera().ray({0.5, 0.5});
+  const auto found = world.closest(ray, Faces::both, uncounted);
+  if (!found || found->object >= scene.objects.size() || !world.solid(found->object) ||
+      !world.opaque(found->object) || !Hit(world, ray, *found).leaving)
+    return {};
+  const Object& object = scene.objects[found->object];
+  return Cure{
+      object.place,
+      "; the camera is inside this " + std::string(object.shape.keyword()) + ", and no light shines in there",
+      "move the camera's position out of it, or put a light into it"};
+}
+
 /// A light beside the eye, where nothing that is seen is in its way.
 std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, const World& world,
                                   const std::vector<char>& seen) {
@@ -191,6 +206,10 @@ std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, 
   if (!factor) return {};
   const bool none = scene.lights.empty() && !shines(scene);
   const bool ray = scene.format == "ray";
+  if (!scene.kindDefaults.empty() &&
+      none)  // its light falls off from what is looked at, and exposure follows
+    return Cure{Place{.file = scene.file}, "; the scene has no light",
+                "point_light { position = " + rounded(light.position) + " } shines from the eye"};
   return Cure{
       Place{.file = scene.file}, none ? "; the scene has no light" : "; no light reaches the visible objects",
       ray ? "point_light { position = " + rounded(light.position) + "; color = " + rounded(Color(*factor)) +
@@ -225,6 +244,7 @@ std::optional<Cure> cureOf(const Scene& scene, const Settings& settings, const W
   if (std::none_of(seen.begin(), seen.end(), [](char is) { return is != 0; })) return lookAround(scene);
   if (auto cure = strongerLight(scene, settings, world, seen)) return cure;
   if (auto cure = unsampledEmitter(scene, world)) return cure;
+  if (auto cure = outOfSolid(scene, world)) return cure;
   return lightAtTheEye(scene, settings, world, seen);
 }
 

@@ -62,6 +62,32 @@ std::optional<Message> ofOneColor(const Scene& scene, const Settings& settings, 
                  where.empty() ? "`ray explain --pixel X,Y` says what a pixel shows" : where};
 }
 
+/// The share of pixels that are noisier than the target, and the samples with which nine of ten reach it; ""
+/// if as many have reached it.
+std::string missedTargetText(const Settings& settings, const Film& film) {
+  constexpr double kMost = 65536;  // samples of a pixel
+  const Picture errors = film.errors(), counts = film.sampleCounts();
+  std::vector<double> needed;  // samples
+  std::size_t missed = 0;
+  for (std::size_t i = 0; i < counts.pixels.size(); ++i) {
+    const double taken = counts.pixels[i].r, excess = errors.pixels[i].r / film.noiseTarget();
+    if (taken == 0) continue;
+    needed.push_back(taken * excess * excess);
+    missed += excess > 1;
+  }
+  if (10 * missed <= needed.size()) return "";
+  const auto ninth = needed.begin() + 9 * std::ssize(needed) / 10;  // edges are the rest, and no noise
+  std::nth_element(needed.begin(), ninth, needed.end());
+  const double samples = std::exp2(std::ceil(std::log2(*ninth)));
+  char text[200], cure[60] = "";
+  if (samples <= kMost) std::snprintf(cure, sizeof cure, "; --spp %.0f brings nine of ten there", samples);
+  std::snprintf(text, sizeof text, "; noisy: %s%.0f %% of the pixels miss the noise target of %.2g levels%s",
+                settings.denoise ? "before denoising, " : "",
+                100.0 * static_cast<double>(missed) / static_cast<double>(needed.size()),
+                255 * film.noiseTarget(), cure);
+  return text;
+}
+
 }  // namespace
 
 std::optional<Message> firstAid(const Scene& scene, const Settings& settings, const World& world,
@@ -81,8 +107,9 @@ std::optional<Message> firstAid(const Scene& scene, const Settings& settings, co
 }
 
 std::string noiseText(const Settings& settings, const Film& film) {
-  if (settings.denoise || settings.noiseTarget > 0 || !hasTrait(settings, Trait::meetsLamps)) return "";
-  if (film.corners() || film.takesSplats()) return "";
+  if (!hasTrait(settings, Trait::meetsLamps) || film.corners() || film.takesSplats()) return "";
+  if (film.noiseTarget() > 0) return missedTargetText(settings, film);
+  if (settings.denoise) return "";
   std::vector<double> errors;
   for (const Color& error : film.errors().pixels)
     if (255 * error.r > kQuiet) errors.push_back(error.r);

@@ -18,8 +18,9 @@ namespace trace {
 std::optional<Message> firstAid(const Scene& scene, const Settings& settings, const World& world,
                                 const Film& film);
 
-/// The estimated error of a noisy picture and the samples that halve it, to follow the last line of a render;
-/// "" if it is not noisy, if nothing is known of that, or if settings say how much is allowed.
+/// To follow the last line of a render of a noisy picture: its estimated error and the samples that halve it,
+/// or, where pixels stop for a noise target, how many missed it and the samples that would do. "" if it is
+/// not noisy, or if nothing is known of that.
 std::string noiseText(const Settings& settings, const Film& film);
 
 /// How many pixels a few very bright paths make stand out (fireflies), with a cure, to follow the last line

@@ -18,7 +18,7 @@ std::string reasonOf(const Settings& settings, const Light& light) {
   if (isMet(light)) return "shadow rays run straight through glass";
   if (!light.hasSize()) return "the light has no size, so no path hits it";
   return canBeVisible(light) ? "the light is not visible, so no path hits it"
-                             : "rays do not see a light of this kind, so no path hits it";
+                             : "paths cannot hit a light of this kind";
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "base/bits.h"
 #include "base/printable.h"
 #include "base/text.h"
+#include "formats/ray/file/made_by.h"
 #include "scene/integrators.h"
 #include "scene/options.h"
 
@@ -66,7 +67,8 @@ constexpr int kMostIndented = 12;
 
 class TreeText {
  public:
-  TreeText(const PixelFacts& facts, bool color) : scene_(facts.scene), rays_(facts.rays), color_(color) {}
+  TreeText(const PixelFacts& facts, bool color)
+      : scene_(facts.scene), rays_(facts.rays), time_(facts.settings.time), color_(color) {}
 
   std::string all() {
     for (int i = 0; i < static_cast<int>(rays_.size()); ++i)
@@ -125,6 +127,9 @@ class TreeText {
     if (const std::string place = shortPlace(object.place); !place.empty()) what += " (" + place + ")";
     line(printable(what + (object.isMesh ? " triangle " : " part ") + std::to_string(hit.part) +
                    ", made of " + object.madeOf + ", at distance " + digits(hit.t)));
+    if (node.parent < 0 && hit.object < scene_.objects.size())
+      if (const std::string calls = callsThatMade(scene_, hit.object, time_); !calls.empty())
+        line(printable("  made " + calls));
     const SurfacePoint& s = hit.surface;
     const WhittedTerms& whittedTerms = whitted(*node.bsdf);
     const bool lets = whittedTerms.transmits() || whittedTerms.passage == Passage::straight;
@@ -295,6 +300,7 @@ class TreeText {
 
   const Scene& scene_;
   const std::vector<ExplainedRay>& rays_;
+  const Real time_;
   bool color_;
   std::string text_, margin_;
 };

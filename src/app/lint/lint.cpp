@@ -58,7 +58,7 @@ using namespace lint_checks;
 
 /// A scene of another format, or one that has no file any more, tells nothing but its name.
 RayRemarks remarksOn(const Scene& scene) {
-  const RayRemarks none{.degrees = {}, .camera = {.file = scene.file}};
+  const RayRemarks none{.degrees = {}, .unused = {}, .camera = {.file = scene.file}};
   if (scene.format != "ray" || !isOrdinaryFile(scene.file)) return none;  // a pipe is empty by now
   try {
     return trace::remarksOn(scene.file, readFile(scene.file));
@@ -77,6 +77,15 @@ void degrees(const LintScene& s, Findings& findings) {
            (others == 0 ? "" : "; so with " + counted(others, "more angle")) + ": are degrees meant?",
        toText(first.value) + " degrees are " + toText(std::round(first.value * kPi / 180 * 1e5) / 1e5) +
            " radians");
+}
+
+void unusedName(const LintScene& s, Findings& findings) {
+  for (const RayRemarks::Unused& unused : s.remarks.unused)
+    warn(findings, "unused-name", unused.place,
+         "\"" + unused.name + "\" is " +
+             (unused.isParameter ? "a parameter that nothing in its definition uses"
+                                 : "defined, but nothing uses it"),
+         unused.isParameter ? "use it in the body, or leave it out" : "use it, or leave it out");
 }
 
 }  // namespace
@@ -107,6 +116,7 @@ std::span<const LintCheck> lintChecks() {
       LintCheck{"zero-area", "triangles of a mesh without area", zeroArea},
       LintCheck{"coplanar", "faces of two objects in one plane, one over the other", coplanarFaces},
       LintCheck{"unused-material", "a named material that nothing uses", unusedMaterial},
+      LintCheck{"unused-name", "a name or parameter that nothing uses", unusedName},
       LintCheck{"inherited-glass", "a material that is glass only by inheritance", inheritedGlass},
       LintCheck{"index-below-1", "glass of an index of refraction below 1", indexBelowOne},
       LintCheck{"glass-in-glass", "glass objects that overlap and are each assumed to be in air",

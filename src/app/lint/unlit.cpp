@@ -64,10 +64,14 @@ void unlit(const LintScene& s, Findings& findings) {
   const bool isCauseSaid = spotsOnNothing(s, findings);
   const bool facesAway = std::any_of(findings.begin(), findings.end(),
                                      [](const LintFinding& f) { return f.check == "light-faces-away"; });
-  std::set<std::uint32_t> cases;  // around a light, of which light-inside tells
+  std::set<std::uint32_t> cases;  // around a light or the camera, of which other checks tell
   for (const LightSource& source : s.scene.lights)
     if (source.links.castsShadows)
       for (const std::uint32_t around : opaqueAround(s, source.light)) cases.insert(around);
+  if (std::any_of(findings.begin(), findings.end(),
+                  [](const LintFinding& f) { return f.check == "camera-inside"; }))
+    for (const std::uint32_t around : s.aroundCamera)
+      if (s.world.opaque(around)) cases.insert(around);
   for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
     const Survey::Seen& seen = s.survey.objects[object];
     if (seen.places < kFew || seen.lit > 0 || seen.couldBeLit < seen.places) continue;

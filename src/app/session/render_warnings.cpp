@@ -87,6 +87,25 @@ bool gainsLight(const MaterialModel& model) {
          kMuch;
 }
 
+/// Its colour is one of which the reader of the file warned.
+bool isTooBright(const Scene& scene, const MaterialModel& model) {
+  const auto* phong = model.as<Phong>();
+  return phong && scene.format == "ray" && maxComponent(phong->diffuse) > 1;
+}
+
+/// So far away for its size that it cannot be seen, and that rounding moves its points.
+bool isLost(const Affine& placed) {
+  constexpr Real kMostSizes = 1e12;
+  const Vec3 size = abs(placed.row[0]) + abs(placed.row[1]) + abs(placed.row[2]);
+  return maxComponent(abs(placed.offset)) > kMostSizes * maxComponent(size);
+}
+
+/// A band of the background, which lights nothing, is not black.
+bool hasBands(const Scene& scene) {
+  const std::vector<Color>& bands = scene.background.colors;
+  return std::any_of(bands.begin(), bands.end(), [](const Color& c) { return !isBlack(c); });
+}
+
 /// To what is farthest from the camera, of objects that have an end; 0 where none has.
 Real distanceAcross(const World& world) {
   const Box3& box = world.bounds();
@@ -323,12 +342,23 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
              " its brightness depends on --medium-depth and the size of the scene",
          "--fog-height thins it out above; --medium-depth 1 scatters light once, as whitted does");
   if (bounces)
-    if (const Object* gains = firstWith(scene, gainsLight))
+    if (const Object* gains = firstWith(scene, [&](const MaterialModel& model) {
+          return gainsLight(model) && !isTooBright(scene, model);
+        }))
       messages.warn(gains->place,
                     "its material reflects more light than it receives (diffuse together with transmissive "
                     "or reflective, perhaps inherited from the material before): with --integrator " +
                         integrator + " it and its surroundings grow brighter with --depth",
                     "diffuse = 0 makes clear glass and plain mirrors");
+  const auto lost = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                 [](const Object& object) { return isLost(object.worldFromObject); });
+  if (lost != scene.objects.end())
+    messages.warn(
+        lost->place,
+        "the " + std::string(lost->shape.keyword()) + " is " +
+            toText(maxComponent(abs(lost->worldFromObject.offset))) +
+            " away, more than 1e12 times its size: it cannot be seen, and rounding moves its points",
+        "place it nearer, or make it larger");
   if (paths)
     if (const Object* drawn = firstWith(scene, draws))
       messages.warn(
@@ -338,13 +368,19 @@ void warnOfSettings(const Scene& scene, const Settings& s, const World& world, M
               integrator + " its surroundings grow brighter with --depth",
           "--integrator whitted is meant for it");
   if (paths && world.lights().empty() && !world.outside().isSeenBy(RayKind::bounce) &&
-      !anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); }))
-    warn("--integrator " + integrator +
-             " finds no light in the scene: ambient light stands for light that bounces, "
-             "and is left out",
-         "add a light, an object with emissive, or a background with a gradient");
-  else if (traits.has(Trait::addsAmbient) && !(scene.objects.empty() && scene.uses.empty()) &&
-           isDark(scene, world))
+      !anyObject(world, [](const WhittedTerms& terms) { return !isBlack(terms.emissive); })) {
+    const std::string hint = "add a light, an object with emissive, or a background with a gradient";
+    if (!isBlack(world.ambient()))
+      warn("--integrator " + integrator +
+               " finds no light in the scene: ambient light stands for light that bounces, "
+               "and is left out",
+           hint);
+    else if (hasBands(scene))  // app/advice/darkness.h reports a picture that is black all over
+      warn("--integrator " + integrator + " finds no light in the scene, which the background does not light",
+           hint);
+  }
+  if (!paths && traits.has(Trait::addsAmbient) && !(scene.objects.empty() && scene.uses.empty()) &&
+      isDark(scene, world))
     warn("no light: everything will be black",
          "add one, as in point_light { position = (0, 0, 5); color = (1, 1, 1); }");
 }

@@ -91,7 +91,7 @@ std::string sheetText(const std::vector<Entry>& shown, double aspect) {
       "plane { material = { model = lambert; diffuse = texture(checker { a = (0.5, 0.5, 0.5); b = (0.3, 0.3, "
       "0.3); scale = (0.6, 0.6, 0.6) }) } }\n";
   text +=
-      "background { gradient = ((0.3, 0.3, 0.3), (0.5, 0.5, 0.5), (0.9, 0.92, 0.95), (0.6, 0.7, 0.85)); "
+      "background { gradient = ((0.3, 0.3, 0.3), (0.5, 0.5, 0.5), (0.8, 0.8, 0.8), (1.5, 1.5, 1.5)); "
       "elevations = (-90, -4, 8, 90) }\n"
       "directional_light { direction = (0.5, -1, -0.6); color = (1.2, 1.15, 1.05); size = 4 }\n";
   std::size_t number = 0;

@@ -41,7 +41,7 @@ std::string outputName(const Arguments& arguments) {
 
 /// Where no scene was meant but a command or a flag, that is what to tell, before anything about the words
 /// after it.
-void checkIsScene(const std::string& scene) {
+void checkIsScene(const std::string& scene, std::size_t operands) {
   std::error_code ignored;
   if (scene == kStandardInput || fs::exists(scene, ignored)) return;
   if (scene.starts_with('+'))  // as POV-Ray has them
@@ -52,6 +52,10 @@ void checkIsScene(const std::string& scene) {
   if (!name.empty())
     throw Error(Fault::io, "there is no file \"" + scene + "\"",
                 "did you mean the command \"ray " + name + "\"?");
+  if (operands > 1 && scene.find_first_of("./\\") == std::string::npos)
+    throw Error(Fault::usage, "there is no command \"" + scene + "\"",
+                scene == "frames" || scene == "animate" ? "ray SCENE --frames 0-23 renders an animation"
+                                                        : "ray --help lists the commands");
 }
 
 constexpr std::string_view kStandardOutput = "-";
@@ -107,7 +111,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
     return kDone;
   }
 
-  if (!arguments.files.empty()) checkIsScene(arguments.files[0]);
+  if (!arguments.files.empty()) checkIsScene(arguments.files[0], arguments.files.size());
   const std::string named = outputName(arguments);
   if (named == kStandardOutput) return renderToStdout(arguments, console);
   if (arguments.format && !arguments.toStdout)

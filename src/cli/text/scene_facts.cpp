@@ -82,7 +82,11 @@ std::string chosenText(const Scene& scene, const Settings& settings, Real measur
     chosen += (chosen.empty() ? "Trace chose " : ", ") + what;
   };
   for (const std::string& what : scene.kindDefaults) add(what);
-  if (measuredExposure != 0) add("exposure " + toText(measuredExposure) + " stops");
+  const Real given = std::round(100 * (settings.exposure - measuredExposure)) / 100;
+  if (measuredExposure != 0)
+    add("exposure " + toText(measuredExposure) + " stops" +
+        (given == 0 ? ""
+                    : ", with --exposure " + toText(given) + " in all " + toText(given + measuredExposure)));
   const std::string quality = qualityText(settings);
   return chosen + (chosen.empty() || quality.empty() ? "" : "; ") + quality;
 }

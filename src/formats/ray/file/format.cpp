@@ -36,7 +36,12 @@ namespace rayfile {
 void settle(Syntax& syntax, SceneTime& time, InputFiles& inputs) {
   expand(syntax, time, inputs, !syntax.hasKeys() && !speaksStudents(syntax));
   translateStudents(syntax);
-  settleKeys(syntax, time);
+  try {
+    settleKeys(syntax, time);
+  } catch (const Error&) {
+    syntax.throwMistakes();  // which come first
+    throw;
+  }
 }
 
 namespace {
@@ -86,6 +91,7 @@ class Reader {
   // --- the file ---
 
   void readItems() {
+    findings_.take(syntax_.mistakes());
     for (const Syntax::Remark& remark : syntax_.remarks())
       messages_.warn(syntax_.place(remark.offset), remark.what, remark.hint);
     const Item root = syntax_.root();
@@ -144,7 +150,7 @@ class Reader {
   }
 
   void warnOfEmptiness() {
-    if (scene_.objects.empty() && scene_.uses.empty())
+    if (scene_.objects.empty() && scene_.uses.empty() && findings_.errors() == 0)
       messages_.warn(Place{scene_.file, 0, 0, {}}, "no object: the picture will be empty");
   }
 

@@ -34,6 +34,18 @@ int precedence(Op op) {
   }
 }
 
+/// The name does not see itself while its value is computed, and has failed if that does not end well.
+class Active {
+ public:
+  explicit Active(Binding& binding) : binding_(binding) { binding_.isActive = binding_.failed = true; }
+  ~Active() { binding_.isActive = false; }
+  Active(const Active&) = delete;
+  Active& operator=(const Active&) = delete;
+
+ private:
+  Binding& binding_;
+};
+
 bool isConstant(std::string_view name) { return name == "pi" || name == "tau" || name == "time"; }
 
 }  // namespace
@@ -91,16 +103,17 @@ std::optional<double> Evaluator::constant(std::string_view name) const {
 Value Evaluator::valueOf(const Found& found, std::uint32_t use) {
   Binding& binding = *found.binding;
   if (binding.value) return *binding.value;
+  if (binding.failed) throw FailedBefore{};
   if (isFunctionLet(binding) || isDefinition(binding))
     fail(use, "expected a value, found " + std::string(binding.name) + ", which takes " +
                   std::string(at(binding.node + 2).source()));
   const std::uint32_t value = binding.node + 2;
-  binding.isActive = true;
+  const Active active(binding);
   Value result = eval(value, found.scope);
   if (const Tree* tree = result.tree())
     result = Tree{tree->node, std::make_shared<Scope>(
                                   Scope{tree->scope, tree->scope->seed, tree->scope->block, binding.name})};
-  binding.isActive = false;
+  binding.failed = false;
   binding.value = result;
   noteRing(found.scope, result);
   return result;
@@ -155,7 +168,8 @@ std::shared_ptr<Scope> Evaluator::bound(std::uint32_t call, std::string_view nam
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (!values[i]) {
       if (kind(wanted[i]) != Kind::entry)
-        fail(call, owner + ": expected a value for " + std::string(names[i]) + ", found none");
+        fail(call, owner + ": expected a value for " + std::string(names[i]) + ", found none",
+             "as in " + owner + std::string(at(parameters).source()));
       values[i] = eval(wanted[i] + 2, own);
       noteRing(own, *values[i]);
     }

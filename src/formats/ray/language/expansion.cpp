@@ -112,6 +112,7 @@ Expansion expansionOf(const std::string& file, std::string_view text, Real time)
   SceneTime moment(time);
   Expansion result;
   rayfile::expand(syntax, moment, result.inputs);
+  syntax.throwMistakes();
   result.text = rayfile::PlainText(syntax).text();
   result.changesWithTime = moment.changesScene();
   return result;

@@ -32,7 +32,7 @@ class Expander : Evaluator {
     result_.reserve(syntax_.nodes().size());
     const std::size_t root = open(0);
     declare(0, *scope);
-    items(0, scope, false);
+    statements(1, 0, scope, false);
     close(root);
     remarkOnEmptyLoops();  // before the tree that they stand in goes
     syntax_.replace(std::move(result_));
@@ -50,9 +50,7 @@ class Expander : Evaluator {
 
   std::size_t open(std::uint32_t from) { return open(node(from), from); }
   std::size_t open(const Node& made, std::uint32_t from) {
-    if ((made.kind == Kind::tuple || made.kind == Kind::block) && ++depth_ > kMostNesting)
-      fail(from, "expected at most " + std::to_string(kMostNesting) + " levels of brackets, found more",
-           calls_ > 0 ? "a recursion needs a condition that ends it" : "");
+    if ((made.kind == Kind::tuple || made.kind == Kind::block) && ++depth_ > kMostNesting) tooNested(from);
     return push(made);
   }
   void close(std::size_t index) {
@@ -73,6 +71,10 @@ class Expander : Evaluator {
     made.number = 0;
     return made;
   }
+  [[noreturn]] void tooNested(std::uint32_t index) const {
+    if (calls_ > 0) tooDeep(index, kMostNesting, "objects and calls within one another");
+    fail(index, "expected at most " + std::to_string(kMostNesting) + " levels of brackets, found more");
+  }
   /// Names the loop or call of which most was made.
   [[noreturn]] void tooMany() const {
     std::map<std::uint32_t, std::pair<std::size_t, std::string>> made;
@@ -89,7 +91,9 @@ class Expander : Evaluator {
     if (most != made.end()) {
       place = syntax_.place(most->first);
       hint = "this was done " + std::to_string(most->second.first) + " times, the last one with " +
-             most->second.second;
+             most->second.second +
+             "; rows { } places millions of copies from a file of numbers, and a name for a group of objects "
+             "makes each copy a few numbers";
     }
     throw Error(
         Fault::limit, place,
@@ -104,8 +108,40 @@ class Expander : Evaluator {
     for (std::uint32_t child = parent + 1; child < after(parent);)
       child = item(child, after(parent), scope, isList);
   }
-  void items(std::uint32_t first, std::uint32_t root, const Scoped& scope) {
-    for (std::uint32_t child = first; child < after(root);) child = item(child, after(root), scope, false);
+  /// Those of a file, or of a body of a definition, loop or condition, from `child` on: one with a mistake is
+  /// noted and left out, for the next may have others.
+  void statements(std::uint32_t child, std::uint32_t parent, const Scoped& scope, bool isList) {
+    while (child < after(parent)) {
+      const Mark mark{result_.size(), uses_.size(), frames_.size(), depth_};
+      try {
+        child = item(child, after(parent), scope, isList);
+        continue;
+      } catch (const Failure& failure) {
+        if (brackets_ > 0 || (failure.deep && calls_ > 0)) throw;
+        syntax_.note(failure.mistake);
+      } catch (const FailedBefore&) {
+        if (brackets_ > 0) throw;
+      }
+      dropFrom(mark);
+      child = after(child);
+    }
+  }
+  struct Mark {
+    std::size_t nodes, uses, frames;
+    int depth;
+  };
+  /// Removes the rest of an item with a mistake.
+  void dropFrom(const Mark& mark) {
+    result_.resize(mark.nodes);
+    uses_.resize(mark.uses);
+    frames_.resize(mark.frames);
+    depth_ = mark.depth;
+    const auto start = static_cast<std::uint32_t>(mark.nodes);
+    fixed_.erase(fixed_.lower_bound(start), fixed_.end());
+    for (auto& [key, shared] : shared_) {
+      shared.copies.erase(shared.copies.lower_bound(start), shared.copies.end());
+      if (shared.root >= start) shared.size = 0;
+    }
   }
   /// Returns the item after it.
   std::uint32_t item(std::uint32_t child, std::uint32_t end, const Scoped& scope, bool isList) {
@@ -116,7 +152,7 @@ class Expander : Evaluator {
       case Kind::define: return next;
       case Kind::include: {
         if (const auto root = roots_.find(child); root != roots_.end())
-          items(withoutHead(root->second), root->second, scope);
+          statements(withoutHead(root->second), root->second, scope, false);
         return next;
       }
       case Kind::loop: loop(child, scope, isList); return next;
@@ -130,14 +166,38 @@ class Expander : Evaluator {
       }
       case Kind::word: {
         const Found found = find(wordAt(child), scope);
+        if (found.binding && isStatement(isList)) refuseValue(found, child);
         if (!found.binding || !isDefinition(*found.binding)) break;
         definition(*found.binding, found.scope, child, {}, scope, 0);
         return next;
       }
+      case Kind::entry:
+        if (isStatement(isList)) refuseAssignment(child, scope);
+        break;
       default: break;
     }
     copy(child, scope);
     return next;
+  }
+  /// An item that stands where the file's own objects do.
+  bool isStatement(bool isList) const { return depth_ == 1 && brackets_ == 0 && !isList; }
+  /// `n = n + 1`.
+  void refuseAssignment(std::uint32_t entry, const Scoped& scope) const {
+    const std::string name(wordAt(entry + 1));
+    const Found found = find(name, scope);
+    if (!found.binding || name == Material::kKeyword || name == "texture") return;
+    fail(entry,
+         "\"" + name + "\" has its value from " + placeText(syntax_.place(node(found.binding->node).offset)),
+         "a name gets its value once; let and another name hold another value");
+  }
+  /// `let c = a b`.
+  void refuseValue(const Found& found, std::uint32_t word) {
+    if (isDefinition(*found.binding) || isFunctionLet(*found.binding)) return;
+    const Value value = valueOf(found, word);
+    if (value.tree() || value.list()) return;
+    const std::string name(found.binding->name);
+    fail(word, "expected an object, found " + name + ", which is " + shown(value),
+         "an operator joins values, as in 2 * " + name + "; (1, " + name + ") is a list");
   }
   /// An included file may have the first words of a scene.
   std::uint32_t withoutHead(std::uint32_t root) const {
@@ -158,13 +218,20 @@ class Expander : Evaluator {
     if (!all.list()) fail(source, "expected a range such as 0..9 or a list, found " + shown(all));
     const std::uint64_t seed = seedAt(statement, *scope);
     turns_[statement] += all.list()->size();
+    const std::size_t before = result_.size();
     for (std::size_t i = 0; i < all.list()->size(); ++i) {
       const Value& value = (*all.list())[i];
       const auto round = std::make_shared<Scope>(Scope{scope, mixBits(seed ^ i), body});
       round->bindings.push_back({at(name).text(), statement, value});
       const FrameScope frame(*this, statement, std::string(at(name).text()) + " = " + shown(value));
       block(body, round, isList);
+      refuseFlood(i + 1, all.list()->size(), result_.size() - before);
     }
+  }
+  /// A loop that will make far too much, as its first turns tell: its last ones might make half as much.
+  void refuseFlood(std::size_t turns, std::size_t all, std::size_t made) const {
+    constexpr std::size_t kSure = kMostMadeNodes / 8;
+    if (made > kSure && made / turns > 2 * kMostMadeNodes / all) tooMany();
   }
   /// Loops that were reached and never made a turn. In an animation others may come later.
   void remarkOnEmptyLoops() {
@@ -195,7 +262,7 @@ class Expander : Evaluator {
     for (std::uint32_t child = body + 1; child < after(body) && !isList; child = after(child))
       sets |= kind(child) == Kind::entry && wordAt(child + 1) == Material::kKeyword;
     const std::size_t group = sets ? open(body) : 0;
-    items(body, scope, isList);
+    statements(body + 1, body, scope, isList);
     if (sets) close(group);
   }
 
@@ -235,7 +302,7 @@ class Expander : Evaluator {
     const std::size_t group = open(likeness(call, Kind::block), call);
     if (block) overriding(block, scope);
     declare(body, *own);
-    items(body, own, false);
+    statements(body + 1, body, own, false);
     close(group);
     unwrap(group);
   }
@@ -275,6 +342,7 @@ class Expander : Evaluator {
   }
   void inBrackets(std::uint32_t index, const Scoped& scope) {
     const bool isList = kind(index) == Kind::tuple;
+    const Nested within(brackets_);
     const std::size_t brackets = open(index);
     if (isList) {
       items(index, scope, true);
@@ -316,6 +384,7 @@ class Expander : Evaluator {
   /// The brackets of a transform: a point or an axis among the numbers stands for its three.
   void transform(std::uint32_t tuple, const Scoped& scope) {
     const bool isMatrix = wordAt(tuple - 1) == "transform";
+    const Nested within(brackets_);
     const std::size_t brackets = open(tuple);
     for (std::uint32_t child = tuple + 1; child < after(tuple);) {
       if (isMatrix || !isComputed(child, scope)) {
@@ -461,6 +530,7 @@ class Expander : Evaluator {
   std::set<std::string_view> textureWords_;
   std::map<std::uint32_t, std::size_t> turns_;  ///< turns made by each loop that was reached
   int depth_ = 0;
+  int brackets_ = 0;  ///< number of brackets of the text around the item, apart from bodies
 };
 
 }  // namespace

@@ -57,7 +57,13 @@ void Names::step(std::uint32_t index) {
 
 void Names::declare(std::uint32_t block, Scope& scope) {
   for (std::uint32_t child = block + 1; child < after(block); child = after(child)) {
-    if (kind(child) == Kind::let || kind(child) == Kind::define) add(child, scope);
+    if (kind(child) == Kind::let || kind(child) == Kind::define) {
+      try {
+        add(child, scope);
+      } catch (const Failure& failure) {
+        syntax_.note(failure.mistake);
+      }
+    }
     if (kind(child) == Kind::include) include(child, scope);
   }
 }
@@ -154,7 +160,8 @@ std::string_view Names::nameAt(std::uint32_t index) const {
 
 Names::FrameScope::FrameScope(Names& names, std::uint32_t at, std::string what)
     : names_(names), index_(names.frames_.size()) {
-  if (++names_.calls_ > kMostCalls) names_.tooDeep(at);
+  if (names_.calls_ >= kMostCalls) names_.tooDeep(at);
+  ++names_.calls_;
   names_.frames_.push_back(
       {static_cast<std::uint32_t>(names_.result_.size()), 0, names_.node(at).offset, std::move(what)});
   names_.active_.push_back(index_);
@@ -171,9 +178,13 @@ Names::FrameScope::~FrameScope() {
 std::string Names::chain() const {
   constexpr std::size_t kMostFrames = 8;
   std::string text;
-  for (std::size_t i = 0; i < std::min(kMostFrames, active_.size()); ++i) {
-    const Syntax::Frame& frame = frames_[active_[active_.size() - 1 - i]];
+  std::size_t shown = 0;
+  for (auto active = active_.rbegin(); active != active_.rend() && shown < kMostFrames; ++shown) {
+    const Syntax::Frame& frame = frames_[*active];
+    std::size_t same = 0;
+    while (active != active_.rend() && frames_[*active].offset == frame.offset) ++active, ++same;
     text += (text.empty() ? "in " : ", in ") + frame.what + " at " + placeText(syntax_.place(frame.offset));
+    if (same > 1) text += " and " + std::to_string(same - 1) + " more there";
   }
   return text;
 }
@@ -181,13 +192,20 @@ std::string Names::chain() const {
 void Names::fail(std::uint32_t index, std::string what, std::string hint) const {
   const std::string where = chain();
   if (!where.empty()) hint += (hint.empty() ? "" : "; ") + where;
-  throw Error(Fault::scene, syntax_.place(node(index).offset), std::move(what), std::move(hint));
+  throw Failure{{node(index).offset, std::move(what), std::move(hint)}};
 }
 
+void Names::tooDeep(std::uint32_t index, int most, const std::string& levels) const {
+  try {
+    fail(index, "expected at most " + std::to_string(most) + " " + levels + ", found more",
+         "a recursion needs a condition that ends it");
+  } catch (Failure& failure) {
+    failure.deep = true;
+    throw;
+  }
+}
 void Names::tooDeep(std::uint32_t index) const {
-  fail(index,
-       "expected at most " + std::to_string(kMostCalls) + " calls and loops within one another, found more",
-       "a recursion needs a condition that ends it");
+  tooDeep(index, kMostCalls, "calls and loops within one another");
 }
 
 }  // namespace trace::rayfile

@@ -26,6 +26,7 @@ struct Binding {
   /// The value of a parameter or loop; of a let without parameters, once it was asked for.
   std::optional<Value> value{};
   bool isActive = false;  ///< its value is being computed, and does not see itself
+  bool failed = false;    ///< its value has a mistake, which was noted
 };
 
 /// The names of one block, of one call or of one round of a loop.
@@ -128,9 +129,18 @@ class Names {
     Names& names_;
     const std::size_t index_;
   };
-  /// The calls and rounds that are being made, the innermost first.
+  /// Thrown by fail(). `deep`: a recursion without an end, of which no part is made.
+  struct Failure {
+    Syntax::Mistake mistake;
+    bool deep = false;
+  };
+  /// Thrown where a name is used whose value has a mistake that was noted.
+  struct FailedBefore {};
+  /// The calls and rounds that are being made, the innermost first; a recursion is one.
   std::string chain() const;
   [[noreturn]] void fail(std::uint32_t index, std::string what, std::string hint = {}) const;
+  /// So many `levels` of calls and the like.
+  [[noreturn]] void tooDeep(std::uint32_t index, int most, const std::string& levels) const;
   [[noreturn]] void tooDeep(std::uint32_t index) const;
   /// Gives a ValueError its place.
   template <class Work>

@@ -12,6 +12,7 @@
 #include "formats/ray/read/fields.h"
 #include "shading/library.h"
 #include "shading/textures/image_map.h"
+#include "shading/textures/mix.h"
 
 namespace trace::rayfile {
 namespace {
@@ -74,11 +75,48 @@ bool mirrorsSpecular(const Item& field) {
 
 }  // namespace
 
+/// `pattern_scale` and the like: a field of TexturePlacement, for all patterns of the material.
+static bool readPatternField(Findings& findings, TexturePlacement& to, const Item& field) {
+  constexpr std::string_view kPattern = "pattern_";
+  if (!field.key().starts_with(kPattern)) return false;
+  bool known = false;
+  forEachField<TexturePlacement>([&](const auto& f) {
+    if (f.keyword != field.key().substr(kPattern.size())) return;
+    known = true;
+    Real factor = 1;
+    if (f.keyword == "scale" && field.value().is(Kind::number)) {
+      if (read(findings, field.key(), field.value(), factor)) to.*f.member = Vec3{factor, factor, factor};
+    } else {
+      read(findings, field.key(), field.value(), to.*f.member);
+    }
+  });
+  return known;
+}
+
+/// Pictures in u and v stay where they are. Returns the number of patterns.
+static int movePatterns(Material& material, const TexturePlacement& placement) {
+  int count = 0;
+  for (FieldTexture& t : material.textures) {
+    if (wantsUv(t.texture)) continue;
+    TextureNode moved = *t.texture;
+    if (!(moved.placement == TexturePlacement{})) {  // within its own
+      moved = {.model = Mix{.a = Color(1), .b = Color(1), .amount = 0}};
+      setTexture(moved.inputs, "a", t.texture);
+    }
+    moved.placement = placement;
+    t.texture = std::move(moved);
+    ++count;
+  }
+  return count;
+}
+
 /// A material block being read.
 struct Materials::Block {
   Material material;
   bool gaveReflective = false;
   std::optional<Item> shininess;
+  TexturePlacement patterns{};  ///< where all its patterns go
+  bool unquoted = false;        ///< a name of several words without quotation marks was met
 };
 
 NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited) {
@@ -112,10 +150,14 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
   if (const std::optional<Item> model = modelOf(value)) chooseModel(block, *model);
   RepeatedFields repeats(findings_, Material::kKeyword);
   for (const Item item : value) {
+    if (item.is(Kind::word) && block.unquoted) continue;  // the rest of a name, which was told
     // It takes nothing back: the colour counts where a convention does not mirror with the highlight.
     if (item.keyed() && !mirrorsSpecular(item)) repeats.note(item);
     field(block, item);
   }
+  if (!(block.patterns == TexturePlacement{}) && movePatterns(block.material, block.patterns) == 0)
+    findings_.warn(value, "pattern_scale and the like: this material has no pattern",
+                   "stones and woods of the library have, and so have textures such as wood { }");
   const Phong* phong = block.material.model.as<Phong>();
   if (phong) warnOfInheritedGlass(value, inherited);
   if (phong && block.shininess && !isBlack(phong->specular))
@@ -177,6 +219,7 @@ void Materials::field(Block& block, const Item& field) {
     return;
   }
   if (key == kLibrary) return fromLibrary(block, field.value());
+  if (readPatternField(findings_, block.patterns, field)) return;
   Phong* phong = block.material.model.edit<Phong>();
   if (phong && mirrorsSpecular(field)) {
     block.gaveReflective = false;
@@ -230,7 +273,8 @@ void Materials::unknownField(const Block& block, const Item& field) {
   const MaterialModel& model = block.material.model;
   if (!model.is<Phong>()) {
     const auto fields =
-        keywords(model, {"name", "bump", kOpacity, "casts_shadow", "displacement", "displacement_levels"});
+        keywords(model, {"name", "bump", kOpacity, "casts_shadow", "displacement", "displacement_levels",
+                         "pattern_scale", "pattern_rotate", "pattern_translate"});
     const std::string meant = didYouMean(key, fields);
     return findings_.error(
         field,
@@ -245,9 +289,10 @@ void Materials::unknownField(const Block& block, const Item& field) {
     return findings_.error(field, "material has no field \"" + std::string(key) + "\"",
                            "a texture takes the place of a field's value: diffuse = map(\"a.png\")");
   if (having.empty())
-    return findings_.unknownField(Material::kKeyword, field,
-                                  keywords(model, {"name", "bump", kOpacity, "casts_shadow", "displacement",
-                                                   "displacement_levels", kModel, kLibrary}));
+    return findings_.unknownField(
+        Material::kKeyword, field,
+        keywords(model, {"name", "bump", kOpacity, "casts_shadow", "displacement", "displacement_levels",
+                         "pattern_scale", "pattern_rotate", "pattern_translate", kModel, kLibrary}));
   const std::string of = "it is one of model = " + list(having, "or");
   if (findings_.isOfKind())
     return findings_.error(
@@ -274,6 +319,7 @@ void Materials::fromLibrary(Block& block, const Item& value) {
   const std::optional<Material> found = libraryMaterial(name);
   if (!found) {
     std::string hint = value.source().starts_with('"') ? "" : inQuotes(name);
+    block.unquoted = !hint.empty();
     if (hint.empty()) hint = didYouMean(name, libraryNames());
     if (hint.empty()) hint = "ray materials lists them; diffuse = (red, green, blue) makes a colour";
     findings_.error(value, "library: expected the name of a material, found " + describe(value),

@@ -78,8 +78,8 @@ std::string partOf(std::string_view word, std::span<const std::string_view> know
   return text.empty() ? text : text + "?";
 }
 
-constexpr std::array<std::string_view, 7> kSizes{"radius", "size",  "width",   "height",
-                                                 "length", "depth", "diameter"};
+constexpr std::array<std::string_view, 4> kSizes{"radius", "size", "width", "diameter"};
+constexpr std::array<std::string_view, 3> kLengths{"height", "length", "depth"};
 constexpr std::array<std::string_view, 6> kPlaces{"position",  "center", "centre",
                                                   "translate", "at",     "origin"};
 constexpr std::array<std::string_view, 5> kColours{"color", "colour", "diffuse", "texture", "albedo"};
@@ -89,10 +89,12 @@ std::string saidElsewhere(std::string_view owner, std::string_view name) {
   const std::string made = std::string(owner) + " { } }";
   if (owner == Material::kKeyword)
     return didYouMean(name, kColours).empty() ? "" : "diffuse = (red, green, blue) is its colour";
-  if (owner == "rectangle_light" && (name == "direction" || isOneOf(kSizes, name)))
+  if (owner == "rectangle_light" && (name == "direction" || isOneOf(kSizes, name) || isOneOf(kLengths, name)))
     return "u and v are its edges, which say how large it is; it shines toward u x v";
   if (!findShapeType(owner)) return {};
-  if (isOneOf(kSizes, name)) return "scale(2) { " + made + " makes it twice as large";
+  if (isOneOf(kSizes, name))
+    return "scale(2) { " + made + " makes it twice as large; scale(1, 2, 3) { " + made + ", along x, y and z";
+  if (isOneOf(kLengths, name)) return "scale(1, 1, 2) { " + made + " makes it twice as long along z";
   if (isOneOf(kPlaces, name)) return "translate(1, 2, 3) { " + made + " puts it there";
   if (isOneOf(kColours, name)) return "material = { diffuse = (red, green, blue) } is its colour";
   return {};
@@ -130,7 +132,32 @@ void Findings::error(const Item& at, std::string what, std::string hint) {
   if (failures_.size() == Messages::kMostErrors) reportErrors();
 }
 
+void Findings::take(std::span<const Syntax::Mistake> mistakes) {
+  for (const Syntax::Mistake& mistake : mistakes) {
+    ++errors_;
+    failures_.push_back({mistake.offset, mistake.what, mistake.hint, mistake.times, true});
+  }
+}
+
+/// Errors of the rest of a line of which a part was left out.
+void Findings::dropFollowing() {
+  const auto line = [&](const Failure& failure) {
+    const Place place = syntax_.shortPlace(failure.offset);
+    return std::pair(place.file, place.line);
+  };
+  const Failure* left = nullptr;
+  std::vector<Failure> kept;
+  for (const Failure& failure : failures_) {
+    if (failure.leavesOut) left = &failure;
+    if (failure.leavesOut || !left || line(*left) != line(failure)) kept.push_back(failure);
+  }
+  failures_ = std::move(kept);
+}
+
 void Findings::reportErrors() {
+  std::stable_sort(failures_.begin(), failures_.end(),
+                   [](const Failure& a, const Failure& b) { return a.offset < b.offset; });
+  dropFollowing();
   for (Failure& failure : failures_) {
     if (failure.times > 1) failure.what += " (" + std::to_string(failure.times) + " times)";
     messages_.error(syntax_.place(failure.offset), std::move(failure.what), std::move(failure.hint));

@@ -32,6 +32,9 @@ class Findings {
   /// `NAME: expected EXPECTED, found VALUE`.
   void expected(const Item& value, std::string_view name, const std::string& what, std::string hint = {});
 
+  /// Mistakes that left items out, as errors of their own.
+  void take(std::span<const Syntax::Mistake> mistakes);
+
   std::size_t errors() const { return errors_; }
 
   /// The parts that the file gives of its kind's defaults (formats/kind_defaults.h).
@@ -78,11 +81,13 @@ class Findings {
     std::size_t offset;
     std::string what, hint;
     std::size_t times = 1;
+    bool leavesOut = false;  ///< errors behind it on its line may be of what is missing
   };
   /// The warning of that kind if there was one before; it is then counted once more.
   bool again(const std::string& kind);
   void add(const std::string& kind, const Item& at, std::string what, std::string hint);
   void finishDialect();
+  void dropFollowing();
   void reportErrors();
 
   const Syntax& syntax_;

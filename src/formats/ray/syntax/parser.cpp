@@ -221,6 +221,9 @@ class Parser {
     if (text == "let" && named) return statement(word, Kind::let, &Parser::let);
     if (text == "define" && named) return statement(word, Kind::define, &Parser::define);
     if (text == "for" && named) return statement(word, Kind::loop, &Parser::loop);
+    if (text == "for" && peek() == '(' && syntax_.isOfKind())
+      fail(at_, "expected the name of the loop, found " + shown('('),
+           "for i in 0..4 { } makes five turns, from i = 0 to i = 4");
     if (text == "if" && peek() == '(') return statement(word, Kind::branch, &Parser::branch);
     if (text == "include" && peek() == '"') return statement(word, Kind::include, &Parser::included);
     if (text == "rotate" && peek() >= 'x' && peek() <= 'z' && !isWordPart(next())) return turn(word);

@@ -1,6 +1,8 @@
 #include "formats/ray/syntax/remarks.h"
 
 #include <cmath>
+#include <map>
+#include <string_view>
 
 #include "formats/ray/syntax/syntax.h"
 #include "formats/text_front.h"
@@ -22,6 +24,51 @@ void addAngle(const Syntax& syntax, const Item& rotation, RayRemarks& remarks) {
     remarks.degrees.push_back({syntax.place((*argument).offset()), angle});
 }
 
+/// The names that a file defines, and how often its words name them.
+class NameUses {
+ public:
+  explicit NameUses(const Syntax& syntax) : syntax_(syntax) {
+    for (std::uint32_t i = 0; i < syntax.nodes().size(); ++i) {
+      if (isName(i)) ++words_[Item(syntax, i).text()];
+      includes_ |= kind(i) == Kind::include;
+    }
+  }
+
+  void addUnused(RayRemarks& remarks) const {
+    for (std::uint32_t i = 0; i < syntax_.nodes().size(); ++i) {
+      if (kind(i) != Kind::let && kind(i) != Kind::define) continue;
+      const std::uint32_t name = i + 1, parameters = end(name);
+      if (!includes_ && words_.at(Item(syntax_, name).text()) == 1) add(remarks, name, false);
+      const bool takes = parameters < end(i) && kind(parameters) == Kind::tuple && end(parameters) < end(i);
+      if (takes) addParameters(remarks, parameters, end(i));
+    }
+  }
+
+ private:
+  Kind kind(std::uint32_t i) const { return syntax_.nodes()[i].kind; }
+  std::uint32_t end(std::uint32_t i) const { return syntax_.nodes()[i].end; }
+  bool isName(std::uint32_t i) const { return kind(i) == Kind::word && !syntax_.nodes()[i].quoted; }
+  void add(RayRemarks& remarks, std::uint32_t name, bool isParameter) const {
+    const Item item(syntax_, name);
+    remarks.unused.push_back({syntax_.place(item.offset()), std::string(item.text()), isParameter});
+  }
+  /// Parameters may have others in their defaults.
+  void addParameters(RayRemarks& remarks, std::uint32_t parameters, std::uint32_t bodyEnd) const {
+    for (std::uint32_t i = parameters + 1; i < end(parameters); i = end(i)) {
+      const std::uint32_t name = kind(i) == Kind::entry ? i + 1 : i;
+      if (!isName(name)) continue;
+      int uses = 0;
+      for (std::uint32_t other = parameters + 1; other < bodyEnd; ++other)
+        uses += isName(other) && Item(syntax_, other).text() == Item(syntax_, name).text();
+      if (uses == 1) add(remarks, name, true);
+    }
+  }
+
+  const Syntax& syntax_;
+  std::map<std::string_view, int> words_;
+  bool includes_ = false;
+};
+
 }  // namespace
 
 RayRemarks remarksOn(const std::string& file, std::string_view bytes) {
@@ -29,6 +76,7 @@ RayRemarks remarksOn(const std::string& file, std::string_view bytes) {
   const Syntax syntax(file, front.text());
   RayRemarks remarks;
   remarks.camera.file = file;
+  if (syntax.usesLanguage()) NameUses(syntax).addUnused(remarks);
   for (std::uint32_t i = 0; i < syntax.nodes().size(); ++i) {
     const Item item(syntax, i);
     if (!item.is(Kind::call)) continue;

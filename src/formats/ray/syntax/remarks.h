@@ -17,6 +17,13 @@ struct RayRemarks {
   /// Angles of rotate() beyond a whole turn that are whole or half numbers, as degrees are and radians hardly
   /// ever; in the order of the file. Angles that change with time are left out.
   std::vector<Angle> degrees;
+  /// A name that the file defines and never uses. In a file that includes others, of parameters alone.
+  struct Unused {
+    Place place;
+    std::string name;
+    bool isParameter = false;
+  };
+  std::vector<Unused> unused;
   Place camera;  ///< position of the last camera, which counts; only the file if there is none
 };
 

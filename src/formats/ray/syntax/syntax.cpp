@@ -76,6 +76,29 @@ Syntax::Line Syntax::line(const Source& source, std::size_t at) {
   return {static_cast<std::size_t>(after - source.lineStarts.begin()), start, end};
 }
 
+void Syntax::note(Mistake mistake) {
+  constexpr std::size_t kMostTimes = 1000;
+  for (Mistake& other : mistakes_) {
+    if (other.offset != mistake.offset || other.what != mistake.what) continue;
+    if (++other.times == kMostTimes) throwMistakes();
+    return;
+  }
+  mistakes_.push_back(std::move(mistake));
+  if (mistakes_.size() == Messages::kMostErrors) throwMistakes();
+}
+
+void Syntax::throwMistakes() const {
+  if (mistakes_.empty()) return;
+  std::vector<Mistake> sorted = mistakes_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const Mistake& a, const Mistake& b) { return a.offset < b.offset; });
+  std::vector<Message> messages;
+  for (Mistake& mistake : sorted)
+    messages.push_back(
+        {Message::Severity::error, place(mistake.offset), std::move(mistake.what), std::move(mistake.hint)});
+  throw Error(Fault::scene, std::move(messages));
+}
+
 Place Syntax::place(std::size_t offset) const { return place(offset, kNone); }
 
 Place Syntax::shortPlace(std::size_t offset) const {

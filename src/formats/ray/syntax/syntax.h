@@ -124,6 +124,17 @@ class Syntax {
   };
   void remark(Remark remark) { remarks_.push_back(std::move(remark)); }
   const std::vector<Remark>& remarks() const { return remarks_; }
+  /// An error in a statement or an expression. The tree lacks the item that has it.
+  struct Mistake {
+    std::uint32_t offset;
+    std::string what, hint;
+    std::size_t times = 1;
+  };
+  /// Throws Error with all mistakes at the twentieth, or where one is made again and again.
+  void note(Mistake mistake);
+  const std::vector<Mistake>& mistakes() const { return mistakes_; }
+  /// Throws Error with all mistakes, in the order of the text, if there are any.
+  void throwMistakes() const;
   /// A tree that replace() took over has calls of kKey.
   void noteKeys() { hasKeys_ = true; }
   /// Takes another tree over the same source.
@@ -208,6 +219,7 @@ class Syntax {
   std::vector<Use> uses_;
   std::map<std::uint32_t, Root> roots_;
   std::vector<Remark> remarks_;
+  std::vector<Mistake> mistakes_;
   bool hasKeys_ = false, usesLanguage_ = false;
 };
 

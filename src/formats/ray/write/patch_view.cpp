@@ -188,6 +188,7 @@ std::optional<Vec3> lookAtIn(const std::string& file, std::string_view bytes, Re
   SceneTime moment(time);
   InputFiles inputs;
   rayfile::settle(syntax, moment, inputs);
+  syntax.throwMistakes();
   const std::vector<rayfile::Item> blocks = rayfile::blocksOf(syntax, Camera::kKeyword);
   if (blocks.empty()) return {};
   const std::optional<rayfile::Item> field = rayfile::fieldOf(blocks.back(), "look_at");
