@@ -22,7 +22,7 @@ namespace trace {
 struct Encoding {
   static constexpr int kJpegQuality = 95;  ///< from 91 on the colours of every pixel are kept
 
-  Rounding rounding;  ///< of 8-bit formats
+  Rounding rounding;  ///< rounding of 8-bit formats
   int jpegQuality;    ///< 1 to 100
   Encoding(Rounding r = Rounding::truncate, int quality = kJpegQuality) : rounding(r), jpegQuality(quality) {}
 };
