@@ -64,7 +64,7 @@ class Reader {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(Fault::io, Place{.file = path_}, what);
+    throw Error(Fault::io, SourcePlace{.file = path_}, what);
   }
 
  private:

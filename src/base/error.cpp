@@ -9,7 +9,7 @@ namespace trace {
 namespace {
 
 /// The line of the file with a caret under the column, shortened to a window around it.
-std::string excerpt(const Place& place) {
+std::string excerpt(const SourcePlace& place) {
   constexpr size_t kWindow = 100;
   std::string line = place.text;
   size_t column = place.column > 0 ? static_cast<size_t>(place.column - 1) : 0;
@@ -37,7 +37,7 @@ std::string joined(const std::vector<Message>& messages) {
 
 }  // namespace
 
-std::string placeText(const Place& place) {
+std::string placeText(const SourcePlace& place) {
   std::string text = place.file;
   if (place.line > 0) text += ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
   return text;
@@ -45,7 +45,7 @@ std::string placeText(const Place& place) {
 
 std::string toString(const Message& message) {
   std::string text;
-  const Place& place = message.place;
+  const SourcePlace& place = message.place;
   if (!place.file.empty()) text += printable(placeText(place)) + ": ";
   text += message.severity == Message::Severity::error ? "error: " : "warning: ";
   text += printable(message.what) + "\n";
@@ -55,20 +55,20 @@ std::string toString(const Message& message) {
 }
 
 Error::Error(Fault fault, std::string what, std::string hint)
-    : Error(fault, Place{}, std::move(what), std::move(hint)) {}
+    : Error(fault, SourcePlace{}, std::move(what), std::move(hint)) {}
 
-Error::Error(Fault fault, Place place, std::string what, std::string hint)
+Error::Error(Fault fault, SourcePlace place, std::string what, std::string hint)
     : Error(fault, std::vector<Message>{
                        {Message::Severity::error, std::move(place), std::move(what), std::move(hint)}}) {}
 
 Error::Error(Fault fault, std::vector<Message> messages)
     : fault_(fault), messages_(std::move(messages)), text_(joined(messages_)) {}
 
-void Messages::warn(Place place, std::string what, std::string hint) {
+void Messages::warn(SourcePlace place, std::string what, std::string hint) {
   messages_.push_back({Message::Severity::warning, std::move(place), std::move(what), std::move(hint)});
 }
 
-void Messages::error(Place place, std::string what, std::string hint) {
+void Messages::error(SourcePlace place, std::string what, std::string hint) {
   messages_.push_back({Message::Severity::error, std::move(place), std::move(what), std::move(hint)});
   if (++errors_ >= kMostErrors) throwIfFailed();
 }

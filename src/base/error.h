@@ -12,23 +12,23 @@
 namespace trace {
 
 /// A place in a file the user wrote. `line` and `column` count from 1; 0 means the file as a whole.
-struct Place {
+struct SourcePlace {
   std::string file{};
   int line = 0;
   int column = 0;
   std::string text{};  ///< that line of the file, for the caret; may be empty
 
-  bool operator==(const Place&) const = default;
+  bool operator==(const SourcePlace&) const = default;
 };
 
 /// "scene.ray:12:3", as far as known.
-std::string placeText(const Place& place);
+std::string placeText(const SourcePlace& place);
 
 struct Message {
   enum class Severity { warning, error };
 
   Severity severity = Severity::error;
-  Place place{};
+  SourcePlace place{};
   std::string what{};  ///< what was expected and what was found
   std::string hint{};  ///< what to try; may be empty
 
@@ -45,7 +45,7 @@ enum class Fault { io = 1, usage = 2, scene = 3, limit = 5 };
 class Error : public std::exception {
  public:
   Error(Fault fault, std::string what, std::string hint = {});
-  Error(Fault fault, Place place, std::string what, std::string hint = {});
+  Error(Fault fault, SourcePlace place, std::string what, std::string hint = {});
   Error(Fault fault, std::vector<Message> messages);
 
   const char* what() const noexcept override { return text_.c_str(); }
@@ -64,9 +64,9 @@ class Messages {
   /// More errors than this end the reading at once.
   static constexpr int kMostErrors = 20;
 
-  void warn(Place place, std::string what, std::string hint = {});
+  void warn(SourcePlace place, std::string what, std::string hint = {});
   /// Notes an error and returns, so that one reading reports several; throws at the twentieth.
-  void error(Place place, std::string what, std::string hint = {});
+  void error(SourcePlace place, std::string what, std::string hint = {});
   /// Throws an Error with all messages if there was an error, or, when `strict`, a warning.
   void throwIfFailed(bool strict = false) const;
 

@@ -181,7 +181,7 @@ std::string didYouMean(std::string_view word, std::span<const std::string_view> 
   return best.empty() ? std::string() : "did you mean \"" + best + "\"?";
 }
 
-Place placeAt(std::string_view file, std::string_view source, size_t offset) {
+SourcePlace placeAt(std::string_view file, std::string_view source, size_t offset) {
   offset = std::min(offset, source.size());
   const std::string_view before = source.substr(0, offset);
   const size_t newline = before.rfind('\n');

@@ -35,6 +35,6 @@ std::string nearest(std::string_view word, std::span<const std::string_view> can
 std::string didYouMean(std::string_view word, std::span<const std::string_view> candidates);
 
 /// Line, column and text of a byte offset in `source`. Linear in the offset; for messages only.
-Place placeAt(std::string_view file, std::string_view source, size_t offset);
+SourcePlace placeAt(std::string_view file, std::string_view source, size_t offset);
 
 }  // namespace trace

@@ -52,7 +52,7 @@ PartList readPartList(const std::string& folder) {
   int number = 0;
   const auto expect = [&](bool holds, const std::string& what, const std::string& found) {
     if (!holds)
-      throw Error(Fault::io, Place{.file = name, .line = number, .column = 1},
+      throw Error(Fault::io, SourcePlace{.file = name, .line = number, .column = 1},
                   "expected " + what + ", found \"" + found + "\"", "ray split writes this file");
   };
   for (std::string line; std::getline(lines, line);) {

@@ -159,7 +159,7 @@ Error lacksFirstLine(const std::string& file, std::string_view bytes) {
   const std::string found = line.empty()              ? "an empty line"
                             : line.size() <= kLongest ? "\"" + line + "\""
                                                       : "\"" + line.substr(0, kLongest - 3) + "\"...";
-  return {Fault::scene, Place{file, 1, 1, std::move(line)},
+  return {Fault::scene, SourcePlace{file, 1, 1, std::move(line)},
           "expected Trace 1 on the first line, found " + found,
           "every .ray file begins with the line Trace 1, or SBT-raytracer 1.1 as the courses have it"};
 }
@@ -192,7 +192,7 @@ FoundFormat formatOf(const std::string& file, std::string_view bytes, const char
   const bool isText = kind == "an empty file" || kind == "only white space" || kind == "other text";
   const bool lacksHeader = isText && isNamed && suffix == ".ray";
   if (lacksHeader && kind == "other text") throw lacksFirstLine(file, bytes);
-  throw Error(Fault::scene, Place{file, 0, 0, {}}, found + kind,
+  throw Error(Fault::scene, SourcePlace{file, 0, 0, {}}, found + kind,
               lacksHeader
                   ? "the first line of a .ray file is Trace 1, or SBT-raytracer 1.1 as the courses have it"
                   : "formats Trace reads: " + known);
@@ -243,7 +243,7 @@ auto withinMemory(const std::string& file, std::string_view bytes, Read&& read) 
   } catch (const std::length_error&) {  // thrown by a vector or string
   }
   const std::string doing = workBrokenOff();
-  throw Error(Fault::limit, Place{.file = file},
+  throw Error(Fault::limit, SourcePlace{.file = file},
               "out of memory while " + (doing.empty() ? "reading the scene" : doing) + ", from a file of " +
                   sizeText(bytes.size()),
               "--max-memory N allows N MiB; a smaller mesh, fewer levels of `subdivide`, or fewer copies "

@@ -164,7 +164,7 @@ Background studioBackground() {
 }
 
 /// The choices of options, below those that the scene has.
-void addKindChoices(Scene& scene, const Place& place) {
+void addKindChoices(Scene& scene, const SourcePlace& place) {
   std::vector<Choice> choices;
   const bool like = isGiven(scene, "like");
   for (const KindChoice& choice : kKindChoices) {
@@ -210,7 +210,7 @@ void completeBareMesh(Scene& scene) {
     scene.kindDefaults.emplace_back(glows ? "a light" : "a light and a grey room around");
   }
   smoothMeshes(scene);
-  addKindChoices(scene, Place{.file = scene.file});
+  addKindChoices(scene, SourcePlace{.file = scene.file});
 }
 
 bool shines(const Scene& scene) {
@@ -252,7 +252,7 @@ std::string_view kindDefaultOf(std::string_view option) {
   return value == findOption(option).get(Settings{}) ? std::string_view() : value;
 }
 
-void addKindDefaults(Scene& scene, const KindGiven& given, const Place& place) {
+void addKindDefaults(Scene& scene, const KindGiven& given, const SourcePlace& place) {
   const Box3 seen = boundsOfInterest(scene);
   addCamera(scene, given, seen);
   fitCamera(scene);

@@ -28,7 +28,7 @@ struct KindGiven {
 };
 
 /// Completes the scene. `place` is where the file says its kind; the choices of options carry it.
-void addKindDefaults(Scene& scene, const KindGiven& given, const Place& place);
+void addKindDefaults(Scene& scene, const KindGiven& given, const SourcePlace& place);
 
 /// The value of the option in such a file, of which the quality gives a part; "" if that is the option's
 /// default.

@@ -62,7 +62,7 @@ void CountedFlaw::report(std::string_view what, Messages& messages) const {
   messages.warn(first.place, std::string(what) + ": " + std::to_string(count) + name);
 }
 
-void MeshRepairs::check(MeshData& mesh, const Place& place) {
+void MeshRepairs::check(MeshData& mesh, const SourcePlace& place) {
   check(mesh, [&](MeshPart, std::size_t) { return MeshSpot{place}; });
 }
 
@@ -143,7 +143,7 @@ std::vector<std::uint32_t> MeshRepairs::dropInfinite(MeshData& mesh, const FindI
   return former;
 }
 
-void MeshRepairs::report(const Place& place, Messages& messages) const {
+void MeshRepairs::report(const SourcePlace& place, Messages& messages) const {
   infinitePoints_.report("points that are not three finite numbers of at most 3.4e38", messages);
   lostTriangles_.report("triangles that use such points are left out", messages);
   infiniteNormals_.report("normals that are not finite are taken from the faces", messages);
@@ -155,7 +155,7 @@ void MeshRepairs::report(const Place& place, Messages& messages) const {
 }
 
 void addOnlyMesh(Model& model, MeshData mesh, MeshRepairs& repairs, const FindInFile& find,
-                 const Place& place, Messages& messages) {
+                 const SourcePlace& place, Messages& messages) {
   repairs.check(mesh, find);
   repairs.report(place, messages);
   model.objects.push_back(
@@ -197,7 +197,7 @@ Scene sceneOf(Model model, const std::string& file, std::string_view format) {
     if (!material.name.empty() &&
         std::none_of(scene.materials.begin(), scene.materials.end(),
                      [&](const Material& used) { return used.name == material.name; }))
-      scene.unusedMaterials.push_back({material.name, Place{.file = file}});
+      scene.unusedMaterials.push_back({material.name, SourcePlace{.file = file}});
   scene.inputs = std::move(model.inputs);
   scene.choices = std::move(model.choices);
   scene.camera = model.camera ? *model.camera : framing(model.framed.value_or(bounds(scene)));

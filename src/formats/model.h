@@ -42,7 +42,7 @@ enum class MeshPart { triangle, point, normal, uv, color };
 
 /// Where a part of a mesh is in its file: a line, or, in a binary file, words such as "facet 12".
 struct MeshSpot {
-  Place place{};
+  SourcePlace place{};
   std::string name{};
 };
 
@@ -73,11 +73,11 @@ class MeshRepairs {
   /// not finite.
   void check(MeshData& mesh, const FindInFile& find);
   /// For readers that know one place of the whole mesh.
-  void check(MeshData& mesh, const Place& place);
+  void check(MeshData& mesh, const SourcePlace& place);
   /// Colours that are not finite become white. To be called before they become materials.
   void checkColors(std::vector<Vec3f>& colors, const FindInFile& find, float white = 1);
   /// Warns of the flaws of all meshes so far; `place` is that of the file.
-  void report(const Place& place, Messages& messages) const;
+  void report(const SourcePlace& place, Messages& messages) const;
 
  private:
   /// Removes the triangles whose points are not finite. The former indices of the others, if there were such.
@@ -90,7 +90,7 @@ class MeshRepairs {
 
 /// Adds the mesh of a file that holds just one, repaired with warnings. Throws as MeshRepairs::check().
 void addOnlyMesh(Model& model, MeshData mesh, MeshRepairs& repairs, const FindInFile& find,
-                 const Place& place, Messages& messages);
+                 const SourcePlace& place, Messages& messages);
 
 /// The model's objects as a scene has them. `base` is the material of those without one; `index` gives a
 /// material's number in the scene. Meshes are shared with the model unless their points are coloured.

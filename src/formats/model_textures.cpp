@@ -81,7 +81,7 @@ Texture mixture(const Color& otherwise, const Color& whole, const Texture* own, 
 }  // namespace
 
 ImageMap modelPicture(Pixels pixels) { return {.file = std::move(pixels), .filter = TexelFilter::trilinear}; }
-ImageMap modelPicture(std::string file, Place place) {
+ImageMap modelPicture(std::string file, SourcePlace place) {
   return modelPicture(Pixels{std::move(file), nullptr, std::move(place)});
 }
 
@@ -100,7 +100,7 @@ PictureKind kindOfPicture(const std::string& from, const std::string& name) {
   return kindOfPicture(headOf(pictureFile(from, name)));
 }
 
-Pixels InsidePictures::decode(std::string file, InsideFile picture, const Place& place) {
+Pixels InsidePictures::decode(std::string file, InsideFile picture, const SourcePlace& place) {
   Pixels pixels{std::move(file), nullptr, place};
   try {
     pixels.map = MipMap::decode(picture.bytes, pixels.file);

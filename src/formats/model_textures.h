@@ -15,7 +15,7 @@ namespace trace {
 
 /// A picture filtered by the part of the surface that a pixel shows, as programs show models.
 ImageMap modelPicture(Pixels pixels);
-ImageMap modelPicture(std::string file, Place place = {});
+ImageMap modelPicture(std::string file, SourcePlace place = {});
 
 /// The facts in the head of a picture file. A file that cannot be read, or whose head is invalid, is
 /// `colored` and not `transparent`.
@@ -32,7 +32,7 @@ class InsidePictures {
  public:
   /// `file` tells it from others of the scene: "duck.glb#images[0]". Throws Error(Fault::limit) where memory
   /// lacks.
-  Pixels decode(std::string file, InsideFile picture, const Place& place);
+  Pixels decode(std::string file, InsideFile picture, const SourcePlace& place);
   void report(Messages& messages) const { unread_.reportUnread(messages, reason_); }
 
  private:

@@ -23,7 +23,9 @@ constexpr std::string_view kWhiteSpace = " \t\r\n\v\f";
 std::string gunzipped(const std::string& file, std::string_view bytes) {
   constexpr std::size_t kMost = std::size_t{2} << 30, kPiece = 1 << 16;
   constexpr int kGzipOnly = 16 + MAX_WBITS;
-  const auto fail = [&](const std::string& what) { throw Error(Fault::scene, Place{.file = file}, what); };
+  const auto fail = [&](const std::string& what) {
+    throw Error(Fault::scene, SourcePlace{.file = file}, what);
+  };
   z_stream stream{};
   if (inflateInit2(&stream, kGzipOnly) != Z_OK) throw std::bad_alloc();
   const std::unique_ptr<z_stream, int (*)(z_stream*)> closing(&stream, inflateEnd);
@@ -42,7 +44,7 @@ std::string gunzipped(const std::string& file, std::string_view bytes) {
     const int state = inflate(&stream, Z_NO_FLUSH);
     text.append(piece, kPiece - stream.avail_out);
     if (text.size() > kMost)
-      throw Error(Fault::limit, Place{.file = file}, "the gzip archive holds more than 2 GiB");
+      throw Error(Fault::limit, SourcePlace{.file = file}, "the gzip archive holds more than 2 GiB");
     if (state == Z_MEM_ERROR) throw std::bad_alloc();
     if (state != Z_OK && state != Z_STREAM_END && state != Z_BUF_ERROR)
       fail("the gzip archive is damaged after " + std::to_string(text.size()) + " bytes of its content");

@@ -19,7 +19,7 @@ namespace {
 /// A picture file of the scene, and what came of reading it.
 struct Loaded {
   std::string name;   ///< as the scene has it
-  Place place;        ///< where the scene names it first
+  SourcePlace place;  ///< where the scene names it first
   InputFiles inputs;  ///< it, read or not
   std::shared_ptr<const MipMap> map;
   std::string remark;   ///< what is odd about its name
@@ -70,7 +70,7 @@ bool loadTextures(Scene& scene, Messages& messages) {
     if (!fresh) return;
     found->second.name = pixels.file;
     found->second.remark = named.remark;
-    found->second.place = pixels.place.file.empty() ? Place{.file = scene.file} : pixels.place;
+    found->second.place = pixels.place.file.empty() ? SourcePlace{.file = scene.file} : pixels.place;
     files.push_back(&*found);
   });
   if (files.empty()) return true;
@@ -105,7 +105,7 @@ bool isOfUnreadTextures(const Message& warning) {
   return warning.what.starts_with("the texture") && warning.what.find(kUnread) != std::string::npos;
 }
 
-void UnusedTextures::note(std::string_view name, const Place& place, std::string_view use) {
+void UnusedTextures::note(std::string_view name, const SourcePlace& place, std::string_view use) {
   if (names_.empty()) place_ = place;
   if (!known_.insert(std::string(name) + '\n' + std::string(use)).second) return;
   names_.emplace_back(name.substr(0, kLongName));

@@ -36,7 +36,7 @@ class UnusedTextures {
  public:
   /// Notes one by its name as the file gives it, and the field or keyword that names it, where one picture
   /// may have several uses. The first one gives the warning its place.
-  void note(std::string_view name, const Place& place, std::string_view use = {});
+  void note(std::string_view name, const SourcePlace& place, std::string_view use = {});
   bool empty() const { return names_.empty(); }
 
   /// Warns if there was one. `instead` says what is seen in its place.
@@ -49,7 +49,7 @@ class UnusedTextures {
   /// `the textures "a", "b" and 3 more`.
   std::string list() const;
 
-  Place place_;
+  SourcePlace place_;
   std::vector<std::string> names_;  ///< each once
   std::vector<std::string> shown_;  ///< "a.png" of refl
   std::set<std::string, std::less<>> known_;

@@ -33,7 +33,7 @@ bool startsNumber(char c) { return (c >= '0' && c <= '9') || c == '-' || c == '+
 Tokens::Tokens(std::string file, std::string_view source, const TokenRules& rules, std::size_t start)
     : file_(std::move(file)), source_(source), rules_(rules), at_(start) {
   if (source.size() >= std::numeric_limits<std::uint32_t>::max())
-    throw Error(Fault::limit, Place{file_, 0, 0, {}}, "expected a scene of less than 4 GiB of text");
+    throw Error(Fault::limit, SourcePlace{file_, 0, 0, {}}, "expected a scene of less than 4 GiB of text");
   lineStarts_.push_back(0);
   for (std::size_t i = source.find('\n'); i != std::string_view::npos; i = source.find('\n', i + 1))
     lineStarts_.push_back(static_cast<std::uint32_t>(i + 1));
@@ -151,7 +151,7 @@ void Tokens::expected(std::string_view what, std::string_view expected, std::str
        std::move(hint));
 }
 
-Place Tokens::place(const Token& token) const {
+SourcePlace Tokens::place(const Token& token) const {
   if (!rules_.hasPlaces) return {.file = file_};
   const auto after = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), token.offset);
   const std::size_t start = *(after - 1);

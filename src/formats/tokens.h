@@ -64,7 +64,7 @@ class Tokens {
   [[noreturn]] void expected(std::string_view what, std::string_view expected, std::string hint = {}) const;
 
   /// With the line of text if it is not very long.
-  Place place(const Token& token) const;
+  SourcePlace place(const Token& token) const;
   const std::string& file() const { return file_; }
   /// Is it a token of this text?
   bool holds(const Token& token) const {

@@ -16,7 +16,7 @@ namespace trace {
 class WarningsByKind {
  public:
   /// The kind is the text unless another is given.
-  void warn(Place place, std::string what, std::string hint = {}, std::string_view kind = {}) {
+  void warn(SourcePlace place, std::string what, std::string hint = {}, std::string_view kind = {}) {
     if (again(kind.empty() ? what : kind)) return;
     kinds_.emplace(kind.empty() ? what : kind, all_.size());
     all_.push_back({std::move(place), std::move(what), std::move(hint), 1});
@@ -39,7 +39,7 @@ class WarningsByKind {
       messages.warn(std::move(warning.place), std::move(warning.what), std::move(warning.hint));
     }
     if (others_ > 0)
-      messages.warn(Place{.file = messages.all().back().place.file},
+      messages.warn(SourcePlace{.file = messages.all().back().place.file},
                     "there are warnings of more kinds, not shown: " + std::to_string(others_));
     all_.clear();
     kinds_.clear();
@@ -49,7 +49,7 @@ class WarningsByKind {
  private:
   static constexpr std::size_t kMostKinds = 50;
   struct Warning {
-    Place place;
+    SourcePlace place;
     std::string what, hint;
     std::size_t times;
   };

@@ -69,10 +69,10 @@ class Words {
   void skipTo(std::size_t at) { at_ = at; }
 
   /// Where the last word begins.
-  Place place() const { return placeAt(start_); }
+  SourcePlace place() const { return placeAt(start_); }
   std::size_t start() const { return start_; }
   /// Where that byte is.
-  Place placeAt(std::size_t at) const { return trace::placeAt(file_, text_, at); }
+  SourcePlace placeAt(std::size_t at) const { return trace::placeAt(file_, text_, at); }
 
   /// Bytes not read yet: no count in a file can be larger.
   std::size_t left() const { return text_.size() - at_; }

@@ -37,7 +37,7 @@ namespace {
 
 /// The names of the fields whose values hold the place: of `shininess` in `material = { shininess = -1; }`
 /// both.
-std::vector<std::string> fieldsAround(std::string_view text, const trace::Place& place, int firstLine) {
+std::vector<std::string> fieldsAround(std::string_view text, const trace::SourcePlace& place, int firstLine) {
   if (text.empty()) return {};
   std::size_t end = 0;
   for (int line = firstLine; line < place.line; ++line)
@@ -96,7 +96,7 @@ void SceneState::add(std::string_view statements) {
   // A reader of the kind `Trace 1` counts its first line.
   const int lines = nextLine - 2;
   const std::string file = folder() + kBuilt;
-  const auto moved = [&](trace::Place place) {
+  const auto moved = [&](trace::SourcePlace place) {
     if (place.file == file && place.line > 0) place.line += lines;
     return place;
   };
@@ -153,9 +153,9 @@ void SceneState::add(std::string_view statements) {
   nextLine += 1 + static_cast<int>(std::count(statements.begin(), statements.end(), '\n'));
 }
 
-std::pair<PartCategory, std::uint64_t> SceneState::newPartAt(const trace::Place& place, std::size_t objects,
-                                                             std::size_t lights) const {
-  const auto order = [](const trace::Place& p) { return std::pair(p.line, p.column); };
+std::pair<PartCategory, std::uint64_t> SceneState::newPartAt(const trace::SourcePlace& place,
+                                                             std::size_t objects, std::size_t lights) const {
+  const auto order = [](const trace::SourcePlace& p) { return std::pair(p.line, p.column); };
   std::pair<PartCategory, std::uint64_t> found{kNoPart, 0};
   std::pair<int, int> nearest{0, 0};
   const auto look = [&](const auto& things, const std::vector<std::uint64_t>& ids, std::size_t from,
@@ -228,7 +228,7 @@ std::vector<trace::Message> SceneState::allWarnings() const {
 
 trace::Scene SceneState::completed() const {
   trace::Scene whole = scene;
-  if (isBuilt) addKindDefaults(whole, given, trace::Place{.file = whole.file});
+  if (isBuilt) addKindDefaults(whole, given, trace::SourcePlace{.file = whole.file});
   return whole;
 }
 

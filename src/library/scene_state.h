@@ -61,7 +61,7 @@ struct SceneState {
   /// Reads statements into the scene, or throws Error and leaves it as it was.
   void add(std::string_view statements);
   /// The new object or light that the place stands in, of those from these numbers on.
-  std::pair<PartCategory, std::uint64_t> newPartAt(const trace::Place& place, std::size_t objects,
+  std::pair<PartCategory, std::uint64_t> newPartAt(const trace::SourcePlace& place, std::size_t objects,
                                                    std::size_t lights) const;
   /// Keeps warnings of a part. `text` is what was read, whose first line has the number `line`.
   void warn(PartCategory category, std::uint64_t id, std::span<const trace::Message> messages,

@@ -31,7 +31,7 @@ bool Displacement::wantsUv() const {
   });
 }
 
-MeshData Displacement::of(const MeshData& mesh, const Place& place) const {
+MeshData Displacement::of(const MeshData& mesh, const SourcePlace& place) const {
   constexpr int kMostLevels = 12;  // most levels of one triangle
   if (levels_ > kMostLevels || mesh.triangles.size() > kMostTriangles >> (2 * levels_))
     throw Error(Fault::limit, place,

@@ -33,7 +33,7 @@ class Displacement {
 
   /// The mesh displaced, with the levels of the finest of its materials. Throws Error(Fault::limit) if it
   /// would have too many triangles, and as displaced() of geometry/mesh/mesh_displace.h; at `place`.
-  MeshData of(const MeshData& mesh, const Place& place) const;
+  MeshData of(const MeshData& mesh, const SourcePlace& place) const;
 
  private:
   struct Part {

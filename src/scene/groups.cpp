@@ -17,7 +17,7 @@ std::uint64_t numbersOf(std::size_t objects, const std::vector<GroupUses>& uses,
   return sum;
 }
 
-[[noreturn]] void tooMany(const Place& place) {
+[[noreturn]] void tooMany(const SourcePlace& place) {
   throw Error(Fault::limit, place, "expected groups of fewer than 4 billion objects in all, found more",
               "a group counts as many objects as it holds, each time that it is placed");
 }
@@ -79,7 +79,7 @@ std::vector<std::uint32_t> groupSizes(const Scene& scene) {
     if (!fits(numbers)) tooMany(group.place);
     sizes.push_back(static_cast<std::uint32_t>(numbers));
   }
-  if (!fits(numbersOf(scene.objects.size(), scene.uses, sizes))) tooMany(Place{.file = scene.file});
+  if (!fits(numbersOf(scene.objects.size(), scene.uses, sizes))) tooMany(SourcePlace{.file = scene.file});
   return sizes;
 }
 
@@ -150,7 +150,7 @@ std::string placementName(const Scene& scene, const NumberedObject& object) {
   for (const NumberedObject::Step& step : object.steps) {
     const Group& group = scene.groups[step.uses->group];
     const std::uint32_t number = step.use().place;
-    const Place& place = number < scene.usePlaces.size() ? scene.usePlaces[number] : group.place;
+    const SourcePlace& place = number < scene.usePlaces.size() ? scene.usePlaces[number] : group.place;
     text += (text.empty() ? "" : ", ") + (group.name.empty() ? std::string("group") : group.name) + " #" +
             std::to_string(step.index + 1);
     if (place.line > 0)

@@ -1396,7 +1396,7 @@ Settings resolve(Layers layers) {
 }
 
 std::string chooserOf(const Option& option, std::initializer_list<std::span<const Choice>> layers,
-                      std::string (*place)(const Place&)) {
+                      std::string (*place)(const SourcePlace&)) {
   std::string chooser = "default";
   std::size_t number = 0;
   for (const std::span<const Choice>& layer : layers) {

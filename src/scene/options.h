@@ -48,7 +48,7 @@ const Option& findOption(std::string_view name);
 /// An option given a value, and by whom.
 struct Choice {
   std::string option, value;
-  Place place;  ///< empty for the command line
+  SourcePlace place;  ///< empty for the command line
   bool operator==(const Choice&) const = default;
 };
 
@@ -61,7 +61,7 @@ Settings resolve(std::initializer_list<std::span<const Choice>> layers);
 /// the studio: "default", the place in the file as `place` writes it, "command line" or "studio", perhaps ",
 /// by like".
 std::string chooserOf(const Option& option, std::initializer_list<std::span<const Choice>> layers,
-                      std::string (*place)(const Place&) = placeText);
+                      std::string (*place)(const SourcePlace&) = placeText);
 
 /// A colour as options have it: "0.2,0.5,1", or one number for a grey; nothing for any other text.
 std::optional<Color> colorOf(std::string_view text);

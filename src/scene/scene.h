@@ -28,7 +28,7 @@ struct Object {
   Shape shape;
   Affine worldFromObject;
   std::uint32_t material = 0;  ///< index into Scene::materials
-  Place place;                 ///< where the file defines it
+  SourcePlace place;           ///< where the file defines it
   ObjectLinks links{};
   bool operator==(const Object&) const = default;
 };
@@ -54,7 +54,7 @@ struct GroupUses {
 /// Objects that are placed together, many times.
 struct Group {
   std::string name;  ///< as in the file; may be empty
-  Place place{};
+  SourcePlace place{};
   std::vector<Object> objects{};  ///< in the space of the group
   std::vector<GroupUses> uses{};  ///< placements of groups before this one
   bool operator==(const Group&) const = default;
@@ -62,7 +62,7 @@ struct Group {
 
 struct LightSource {
   Light light;
-  Place place;
+  SourcePlace place;
   LightLinks links{};
   bool operator==(const LightSource&) const = default;
 };
@@ -71,7 +71,7 @@ struct LightSource {
 /// file, so that writing the scene loses nothing.
 struct Unrendered {
   std::string kind;  ///< the keyword: "warn_light", "map", "texture_uv", ...
-  Place place;
+  SourcePlace place;
   std::string text;  ///< the source text of the node
   bool operator==(const Unrendered&) const = default;
 };
@@ -79,7 +79,7 @@ struct Unrendered {
 /// A material that the file names and gives to nothing.
 struct UnusedMaterial {
   std::string name;
-  Place place;
+  SourcePlace place;
   bool operator==(const UnusedMaterial&) const = default;
 };
 
@@ -112,9 +112,9 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<Object> objects;  ///< those that are no part of a group
   std::vector<Group> groups;
-  std::vector<GroupUses> uses;   ///< placements of groups
-  std::vector<Place> usePlaces;  ///< where the file places them
-  std::vector<Choice> choices;   ///< options that the file sets, or that follow from its dialect
+  std::vector<GroupUses> uses;         ///< placements of groups
+  std::vector<SourcePlace> usePlaces;  ///< where the file places them
+  std::vector<Choice> choices;         ///< options that the file sets, or that follow from its dialect
   std::vector<Unrendered> unrendered;
   std::vector<UnusedMaterial> unusedMaterials;
   /// The choices that the file left to Trace, in words: "a camera that shows all objects"

@@ -44,7 +44,7 @@ class Reader {
     inputs_.noteRead(path, bytes);
     Picture read = decodePicture(bytes, name, limits_);
     if (const std::string remark = pictureRemark(bytes, name); !remark.empty())
-      messages_.warn(Place{.file = path}, remark);
+      messages_.warn(SourcePlace{.file = path}, remark);
     return read;
   }
 
@@ -136,7 +136,7 @@ auto madeOr(const Scene& scene, const Option& option, const Settings& settings, 
         message.hint = "name a picture file; --" + std::string(option.name) + " none leaves it out";
       throw Error(Fault::io, {message});
     }
-    Place place{.file = scene.file};
+    SourcePlace place{.file = scene.file};
     for (const Choice& choice : scene.choices)
       if (choice.option == option.name) place = choice.place;
     if (dynamic_cast<const ReadDenied*>(&error)) {
@@ -175,7 +175,7 @@ void readSurroundings(Scene& scene, const Settings& settings, const PictureLimit
           [&] {
             Picture picture = reader.picture(file);
             if (std::all_of(picture.pixels.begin(), picture.pixels.end(), isBlack))
-              messages.warn(Place{.file = file},
+              messages.warn(SourcePlace{.file = file},
                             "aperture-picture: the picture is black everywhere: all of it counts as open",
                             "white is open, and black is closed");
             return picture;

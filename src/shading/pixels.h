@@ -19,7 +19,7 @@ struct InsideFile {
 struct Pixels {
   std::string file;                   ///< as the scene names it
   std::shared_ptr<const MipMap> map;  ///< follows from the file
-  Place place;                        ///< where the scene names it
+  SourcePlace place;                  ///< where the scene names it
   /// Null for a file of its own, and where the one inside cannot be read.
   std::shared_ptr<const InsideFile> inside{};
   bool operator==(const Pixels& other) const { return file == other.file; }

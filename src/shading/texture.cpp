@@ -64,7 +64,7 @@ void setTexture(std::vector<FieldTexture>& textures, std::string_view field, Tex
     textures.insert(at, {std::string(field), std::move(texture)});
 }
 
-Texture pictureTexture(std::string file, Place place) {
+Texture pictureTexture(std::string file, SourcePlace place) {
   return TextureNode{.model = ImageMap{.file = {std::move(file), nullptr, std::move(place)}}};
 }
 

@@ -117,7 +117,7 @@ const Texture* textureOf(const std::vector<FieldTexture>& textures, std::string_
 void setTexture(std::vector<FieldTexture>& textures, std::string_view field, Texture texture);
 
 /// A picture on a field.
-Texture pictureTexture(std::string file, Place place = {});
+Texture pictureTexture(std::string file, SourcePlace place = {});
 
 /// It, or a texture in it, looks at how large a part of the surface a place stands for.
 bool wantsFootprint(const Texture& texture);

@@ -58,7 +58,7 @@ void showError(Studio& studio) {
     return entry.level == Workspace::LogEntry::Level::error;
   });
   if (error == log.rend()) return;
-  const Place& place = error->place;
+  const SourcePlace& place = error->place;
   const std::string file = std::filesystem::path(place.file).filename().generic_string();
   studio.banner.text =
       (file.empty() ? ""

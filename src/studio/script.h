@@ -24,7 +24,7 @@ class Script {
 
  private:
   struct Line {
-    Place place;
+    SourcePlace place;
     std::vector<std::string> words;
   };
   bool next(Studio& studio);

@@ -26,7 +26,7 @@ TEST(Printable, EscapesWhatATerminalObeys) {
 }
 
 TEST(Printable, MessagesAre) {
-  const Error error(Fault::io, Place{"a\033b.ray", 1, 1, "x\x9by\n"}, "found \"c\nd\"", "try \"\a\"");
+  const Error error(Fault::io, SourcePlace{"a\033b.ray", 1, 1, "x\x9by\n"}, "found \"c\nd\"", "try \"\a\"");
   EXPECT_STREQ(error.what(),
                "a\\u001bb.ray:1:1: error: found \"c\\u000ad\"\n  x?y?\n  ^\n  hint: try \"\\u0007\"\n");
 }

@@ -71,7 +71,7 @@ TEST(DidYouMean, NearWordsOnly) {
 
 TEST(PlaceAt, CountsLinesAndColumns) {
   const std::string_view source = "one\r\ntwo three\nfour";
-  const Place place = placeAt("f.ray", source, 9);
+  const SourcePlace place = placeAt("f.ray", source, 9);
   EXPECT_EQ(place.line, 2);
   EXPECT_EQ(place.column, 5);
   EXPECT_EQ(place.text, "two three");

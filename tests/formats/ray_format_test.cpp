@@ -176,7 +176,8 @@ TEST(RayFormat, KeepsNamesPlacesAndOrder) {
   EXPECT_EQ(scene.objects[0].name, "first");
   EXPECT_EQ(scene.objects[1].name, "second one");
   EXPECT_EQ(scene.objects[2].name, "");
-  EXPECT_EQ(scene.objects[1].place, (Place{"test.ray", 3, 12, "  scale(2, box { name = \"second one\"; })"}));
+  EXPECT_EQ(scene.objects[1].place,
+            (SourcePlace{"test.ray", 3, 12, "  scale(2, box { name = \"second one\"; })"}));
 }
 
 TEST(RayFormat, MakesConesOfNegativeSizePositive) {
@@ -457,7 +458,7 @@ TEST(RayFormat, WarnsOfEmptiness) {
   const auto warnings = [](const char* text) { return load(text).warnings; };
   ASSERT_EQ(warnings("").size(), 1u);
   EXPECT_EQ(warnings("")[0].what, "no object: the picture will be empty");
-  EXPECT_EQ(warnings("")[0].place, (Place{"test.ray", 0, 0, ""}));
+  EXPECT_EQ(warnings("")[0].place, (SourcePlace{"test.ray", 0, 0, ""}));
   EXPECT_TRUE(warnings("ambient_light { color = 1 } sphere{}").empty());
 }
 

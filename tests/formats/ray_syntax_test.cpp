@@ -161,10 +161,10 @@ TEST(RaySyntax, KnowsPlacesAndSourceText) {
   const std::string source = "a = 1;\r\n  b { c }\r\n" + std::string(300, ' ') + "d";
   const Syntax syntax("test.ray", source);
   const std::string::size_type b = source.find('b');
-  EXPECT_EQ(syntax.place(b), (Place{"test.ray", 2, 3, "  b { c }"}));
+  EXPECT_EQ(syntax.place(b), (SourcePlace{"test.ray", 2, 3, "  b { c }"}));
   EXPECT_EQ(syntax.place(source.size()).line, 3);
   EXPECT_EQ(syntax.shortPlace(b), syntax.place(b));
-  EXPECT_EQ(syntax.shortPlace(source.size() - 1), (Place{"test.ray", 3, 301, ""}));
+  EXPECT_EQ(syntax.shortPlace(source.size() - 1), (SourcePlace{"test.ray", 3, 301, ""}));
   auto item = syntax.root().begin();
   EXPECT_EQ((*item).source(), "a = 1");
   EXPECT_EQ((*++item).source(), "b { c }");

@@ -116,10 +116,10 @@ TEST(TextFront, PlacesAreThoseOfAnEditor) {
     } catch (const Error& error) {
       return error.messages().front().place;
     }
-    return Place{};
+    return SourcePlace{};
   };
   const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 x\n";
-  const Place plain = place(text);
+  const SourcePlace plain = place(text);
   EXPECT_EQ(plain.line, 4);
   EXPECT_EQ(plain.column, 7);
   for (const std::string& bytes :

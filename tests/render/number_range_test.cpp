@@ -117,7 +117,7 @@ TEST(NumberRange, LightsOfEveryKindAreLeftOut) {
         SCOPED_TRACE(std::string(Kind::kKeyword) + "." + std::string(field.keyword) + " " +
                      std::to_string(std::log10(bad)));
         Scene with = scene();
-        with.lights.push_back({light, Place{.file = "a.ray", .line = 3, .column = 7}});
+        with.lights.push_back({light, SourcePlace{.file = "a.ray", .line = 3, .column = 7}});
         expectLeftOut(with, scene(), "a.ray:3:7: warning: this light", {IntegratorKind::whitted});
       }
     });

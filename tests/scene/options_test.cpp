@@ -92,7 +92,7 @@ TEST(Options, APlaceIsThreeNumbersOrAName) {
 }
 
 TEST(Options, AFileThatASceneNamesLiesBesideIt) {
-  const Place place{.file = "folder/scene.ray"};
+  const SourcePlace place{.file = "folder/scene.ray"};
   const std::vector<Choice> scene{{"environment", "sky.hdr", place}, {"backdrop", "/tmp/b.png", place}};
   const Settings settings = resolve({scene});
   EXPECT_EQ(settings.environment.path, "folder/sky.hdr");

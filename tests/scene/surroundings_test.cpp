@@ -117,7 +117,7 @@ TEST(Surroundings, WhatTheCommandLineNamesAndIsNoPictureIsAnErrorWithAHint) {
 }
 
 TEST(Surroundings, WhatTheSceneNamesAndIsMissingIsAWarningAndAChecker) {
-  const Place place{.file = "nowhere/scene.ray", .line = 7};
+  const SourcePlace place{.file = "nowhere/scene.ray", .line = 7};
   const Read read({{"backdrop", "a.png", place}, {"environment", "b.png", place}}, {});
   ASSERT_EQ(read.messages.all().size(), 2u);
   for (const Message& message : read.messages.all()) {

@@ -134,7 +134,7 @@ bool fades(const Light& light) {
 }
 
 struct Cure {
-  Place place;
+  SourcePlace place;
   std::string why, hint;
 };
 
@@ -208,10 +208,11 @@ std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, 
   const bool ray = scene.format == "ray";
   if (!scene.kindDefaults.empty() &&
       none)  // its light falls off from what is looked at, and exposure follows
-    return Cure{Place{.file = scene.file}, "; the scene has no light",
+    return Cure{SourcePlace{.file = scene.file}, "; the scene has no light",
                 "point_light { position = " + rounded(light.position) + " } shines from the eye"};
   return Cure{
-      Place{.file = scene.file}, none ? "; the scene has no light" : "; no light reaches the visible objects",
+      SourcePlace{.file = scene.file},
+      none ? "; the scene has no light" : "; no light reaches the visible objects",
       ray ? "point_light { position = " + rounded(light.position) + "; color = " + rounded(Color(*factor)) +
                 "; constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0; } shines from the eye"
           : "add a light that shines where the camera looks"};
@@ -221,7 +222,7 @@ std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, 
 std::optional<Cure> lookAround(const Scene& scene) {
   const std::string where = whereToLook(scene);
   if (where.empty()) return {};
-  return Cure{Place{.file = scene.file}, "; no object is in the picture", where};
+  return Cure{SourcePlace{.file = scene.file}, "; no object is in the picture", where};
 }
 
 /// An emissive object whose shape is not sampled as a light: scattered rays find it at random alone.
@@ -329,7 +330,7 @@ std::optional<Message> darkness(const Scene& scene, const Settings& settings, co
     if (!cure && level > kBlack) return {};
     if (!cure)
       return Message{
-          Message::Severity::warning, Place{.file = scene.file}, "the picture is black",
+          Message::Severity::warning, SourcePlace{.file = scene.file}, "the picture is black",
           "`ray lint` looks for the cause, and `ray explain --pixel X,Y` follows the rays of a pixel"};
     char share[100];
     std::snprintf(share, sizeof share,

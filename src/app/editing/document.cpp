@@ -21,7 +21,7 @@ std::filesystem::file_time_type timeOf(const std::string& file) {
   return std::filesystem::last_write_time(file, ignored);
 }
 
-std::string briefPlace(const Place& place) {
+std::string briefPlace(const SourcePlace& place) {
   std::string text = std::filesystem::path(place.file).filename().generic_string();
   if (place.line > 0) text += ":" + std::to_string(place.line);
   return text;
@@ -56,7 +56,7 @@ void keepAside(const std::string& file, const std::string& says, Messages& messa
     there = bytesOf(aside);
   }
   if (!there) writeFile(aside, says);
-  messages.warn(Place{.file = file},
+  messages.warn(SourcePlace{.file = file},
                 "the old file is kept as " + std::filesystem::path(aside).filename().generic_string());
 }
 
@@ -194,7 +194,7 @@ bool Document::apply(const Change& change, const Reading& reading) {
     next.scene = reading.scene;
     next.text = reading.text;
     if (wasEdited)
-      messages_.warn(Place{.file = file_}, change.option + " read the file again, without your edits",
+      messages_.warn(SourcePlace{.file = file_}, change.option + " read the file again, without your edits",
                      "undo brings it back");
   }
   push(std::move(next), change.continues);

@@ -81,7 +81,8 @@ std::string lost(const Scene& named, const Scene& back) {
 }
 
 [[noreturn]] void refuse(Fault fault, const std::string& file, const std::string& why) {
-  throw Error(fault, Place{.file = file}, "not saved: " + why, "undo, or correct the edit, and save again");
+  throw Error(fault, SourcePlace{.file = file}, "not saved: " + why,
+              "undo, or correct the edit, and save again");
 }
 
 }  // namespace

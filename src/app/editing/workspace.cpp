@@ -57,7 +57,7 @@ bool differInPicture(const Settings& a, const Settings& b) {
 void Workspace::report(const std::vector<Message>& messages) {
   for (const Message& message : messages) {
     const Level level = message.severity == Message::Severity::error ? Level::error : Level::warning;
-    Place place = message.place;
+    SourcePlace place = message.place;
     if (!place.file.empty()) place.file = shown(place.file);
     log_.push_back({level, message.what, message.hint, std::move(place)});
   }
@@ -102,7 +102,7 @@ void Workspace::startScene(const std::string& file) {
   asked_.reset();
   openFrom(absolute(file), [path = absolute(file)] {
     if (fs::exists(path))
-      throw Error(Fault::usage, Place{.file = path}, "not written: there is such a file",
+      throw Error(Fault::usage, SourcePlace{.file = path}, "not written: there is such a file",
                   "a new scene overwrites nothing; choose another name");
     writeFile(path, std::string(kFirstScene));
   });

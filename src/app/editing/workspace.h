@@ -123,7 +123,7 @@ class Workspace {
     Level level = Level::note;
     std::string text;  ///< what, without the place
     std::string hint;
-    Place place;
+    SourcePlace place;
   };
   const std::vector<LogEntry>& log() const { return log_; }
   void note(std::string text) { log_.push_back({LogEntry::Level::note, std::move(text), {}, {}}); }

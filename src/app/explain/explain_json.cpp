@@ -20,7 +20,7 @@ Json toJson(Real x) { return x; }
 Json toJson(int number) { return number; }
 Json toJson(const EnumValue& value) { return value.name(); }
 
-Json toJson(const Place& place) {
+Json toJson(const SourcePlace& place) {
   if (place.file.empty()) return nullptr;
   return {{"file", place.file}, {"line", place.line}, {"column", place.column}};
 }

@@ -27,7 +27,7 @@ struct NamedBody {
   std::string ownName;                  ///< as the scene has it; "" without one
   std::string shape;                    ///< its keyword; "" for air
   bool isMesh = false;
-  Place place;
+  SourcePlace place;
   std::vector<Share> materials;  ///< at the hit; of a crossed medium, of the object
   std::string material;          ///< the name of the one that weighs most; "" for air
   std::string madeOf;            ///< materialNames() of all of them
@@ -36,7 +36,7 @@ struct NamedBody {
 struct ExplainedTerm {
   std::string light;           ///< the name of the light that it is of; "" if it is of none
   std::string_view lightKind;  ///< its keyword
-  Place lightPlace;
+  SourcePlace lightPlace;
   std::optional<NamedBody> medium;  ///< medium of a MediumTerm
 };
 

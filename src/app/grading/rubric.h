@@ -17,7 +17,7 @@ struct Rubric {
   struct SceneRow {
     std::string pattern;  ///< the name of a scene, in which * stands for any letters
     double points = 0;
-    Place place{};  ///< in the rubric's file
+    SourcePlace place{};  ///< in the rubric's file
   };
   std::vector<SceneRow> scenes;  ///< the first that fits counts
   /// Names of mistakes (mistakeNames()) and the share that a picture with them keeps, 0 to 1.

@@ -61,7 +61,7 @@ void cameraInside(const LintScene& s, Findings& findings) {
 
 void cameraLooksAway(const LintScene& s, Findings& findings) {
   if (s.scene.objects.empty() || s.survey.met > 0) return;
-  const Place& place = s.remarks.camera;
+  const SourcePlace& place = s.remarks.camera;
   const CameraFrame& camera = s.world.camera();
   if (s.survey.cutOff > 0) {
     warn(findings, "camera-looks-away", place,

@@ -30,13 +30,14 @@ namespace lint_checks {
 
 using Findings = std::vector<LintFinding>;
 
-void warn(Findings& findings, std::string_view check, const Place& place, std::string what, std::string hint);
+void warn(Findings& findings, std::string_view check, const SourcePlace& place, std::string what,
+          std::string hint);
 
 /// "ball" in quotation marks, or "the sphere (scene.ray:12)".
 std::string quoted(const LintScene& s, std::uint32_t object);
 /// "12 %"; never less than 1.
 std::string percent(double share);
-const Place& placeOf(const LintScene& s, std::uint32_t object);
+const SourcePlace& placeOf(const LintScene& s, std::uint32_t object);
 Phong materialOf(const LintScene& s, std::uint32_t object);
 bool isAroundCamera(const LintScene& s, std::uint32_t object);
 /// The opaque objects that shut in a light that stands somewhere.

@@ -240,7 +240,7 @@ void lightReachesNothing(const LintScene& s, Findings& findings) {
     const Color* color = source.light.color();
     const bool isOff = !color || isBlack(*color);
     const bool isSaid = std::any_of(findings.begin(), findings.end(), [&](const LintFinding& finding) {
-      const Place& place = finding.message.place;
+      const SourcePlace& place = finding.message.place;
       return finding.check == "unlit" || (place.line == source.place.line && place.file == source.place.file);
     });
     if (isOff || isSaid) continue;

@@ -17,7 +17,7 @@
 namespace trace {
 namespace lint_checks {
 
-void warn(Findings& findings, std::string_view check, const Place& place, std::string what,
+void warn(Findings& findings, std::string_view check, const SourcePlace& place, std::string what,
           std::string hint) {
   findings.push_back({check, {Message::Severity::warning, place, std::move(what), std::move(hint)}});
 }
@@ -29,7 +29,7 @@ std::string quoted(const LintScene& s, std::uint32_t object) {
 
 std::string percent(double share) { return toText(std::max(1.0, std::round(share * 100))) + " %"; }
 
-const Place& placeOf(const LintScene& s, std::uint32_t object) { return s.scene.objects[object].place; }
+const SourcePlace& placeOf(const LintScene& s, std::uint32_t object) { return s.scene.objects[object].place; }
 
 Phong materialOf(const LintScene& s, std::uint32_t object) {
   return phongOf(s.scene.materials[s.scene.objects[object].material]);

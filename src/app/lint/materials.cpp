@@ -85,7 +85,7 @@ void brickJoint(const LintScene& s, Findings& findings) {
 /// Some readers keep the materials that the file names and leave to nothing in the scene, others beside it.
 void unusedMaterial(const LintScene& s, Findings& findings) {
   const bool inRay = s.scene.format == "ray";
-  const auto unused = [&](const std::string& name, const Place& place) {
+  const auto unused = [&](const std::string& name, const SourcePlace& place) {
     warn(findings, "unused-material", place, "the material \"" + name + "\" is not used",
          inRay ? "name it in an object, as in sphere { material = \"" + name + "\"; }, or remove it"
                : "give it to an object, or remove it");
@@ -98,7 +98,7 @@ void unusedMaterial(const LintScene& s, Findings& findings) {
   }
   for (std::uint32_t i = 0; i < s.scene.materials.size(); ++i)
     if (!s.scene.materials[i].name.empty() && !used.contains(i))
-      unused(s.scene.materials[i].name, Place{.file = s.scene.file});
+      unused(s.scene.materials[i].name, SourcePlace{.file = s.scene.file});
 }
 
 void inheritedGlass(const LintScene& s, Findings& findings) {

@@ -21,7 +21,7 @@ void causticsMissing(const LintScene& s, Findings& findings) {
   };
   const auto missing = missingCaustic(s.scene, s.settings, s.world, false, counts);
   if (!missing) return;
-  const Place& place = s.scene.lights[missing->light].place;
+  const SourcePlace& place = s.scene.lights[missing->light].place;
   warn(findings, "caustics-missing", place,
        quoted(s, missing->object) + " has no caustics of " +
            (place.line > 0 ? "this light: " : "the light that Trace chose: ") + missing->why,

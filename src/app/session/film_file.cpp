@@ -117,7 +117,7 @@ void writeFilm(const std::string& path, const std::string& identity, const Film&
 
 void mergePart(Film& film, const std::string& path, const std::string& identity, const TileShare& share) {
   const auto refuse = [&](const std::string& why, const std::string& hint) {
-    return Error(Fault::io, Place{.file = path}, why, hint);
+    return Error(Fault::io, SourcePlace{.file = path}, why, hint);
   };
   const std::string again = "remove it, and render this part again";
   const std::optional<FilmHead> head = filmHead(path);

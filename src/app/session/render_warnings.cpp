@@ -159,7 +159,7 @@ constexpr std::array kServes{
 
 void warnOfSettings(const Scene& scene, const Settings& s, const World& world, Messages& messages) {
   const auto warn = [&](const std::string& what, const std::string& hint = {}) {
-    messages.warn(Place{.file = scene.file}, what, hint);
+    messages.warn(SourcePlace{.file = scene.file}, what, hint);
   };
   const std::string integrator = findOption("integrator").get(s);
   const Traits traits = traitsOf(s);
@@ -410,7 +410,7 @@ class LinkCheck {
     if (!name.empty()) known_.insert(name);
   }
   template <class Links>
-  void look(const Links& links, const Place& place, Messages& messages) {
+  void look(const Links& links, const SourcePlace& place, Messages& messages) {
     forEachField<Links>([&](const auto& field) {
       if constexpr (std::is_same_v<std::remove_cvref_t<decltype(links.*field.member)>,
                                    std::vector<std::string>>)
@@ -451,7 +451,7 @@ void warnOfMissingCaustics(const Scene& scene, const Settings& settings, const W
         return !world.shapeOf(object).empty() && shinesOn(scene, world, light, object);
       });
   if (!missing) return;
-  const Place& place = scene.lights[missing->light].place;
+  const SourcePlace& place = scene.lights[missing->light].place;
   messages.warn(place,
                 objectName(scene, missing->object) + " has no caustics " +
                     (place.line > 0 ? "of this light: " : "of the light that Trace chose: ") + missing->why,

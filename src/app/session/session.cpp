@@ -211,7 +211,7 @@ void Session::buildMoments() {
     moments_.push_back({&world, integrators_.back().get(), factsOf(scene, time)});
   };
   if (settings_.shutter > 0 && !sceneAt_)
-    messages_.warn(Place{.file = scene_.file},
+    messages_.warn(SourcePlace{.file = scene_.file},
                    "nothing in the scene changes with time: --shutter blurs nothing",
                    "docs/animation.md describes animation");
   if (!(settings_.shutter > 0) || !sceneAt_) return add(*world_, settings_, scene_, settings_.time);
@@ -235,7 +235,7 @@ void Session::buildMoments() {
     work.reached(moment + 1);
   }
   if (!moves)
-    messages_.warn(Place{.file = scene_.file},
+    messages_.warn(SourcePlace{.file = scene_.file},
                    "nothing moves while the shutter is open, from " + toText(settings_.time) + " to " +
                        toText(settings_.time + settings_.shutter) + " seconds: --shutter blurs nothing",
                    "--time chooses another moment");

@@ -87,7 +87,7 @@ class DrawnShapes {
   }
   std::vector<Message> warnings(const std::string& file) const {
     Messages messages;
-    const Place place{file, 0, 0, {}};
+    const SourcePlace place{file, 0, 0, {}};
     const char* kRender = "the render shows every detail";
     for (const auto& [kind, steps] : coarse_)
       messages.warn(place,
@@ -199,7 +199,7 @@ SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled, d
   made_ = std::move(kept);
   model.warnings = drawn.warnings(scene.file);
   if (const std::size_t all = countPlacedObjects(given); all > kMostDrawnCopies)
-    model.warnings.push_back({Message::Severity::warning, Place{.file = given.file},
+    model.warnings.push_back({Message::Severity::warning, SourcePlace{.file = given.file},
                               "the view in space shows " + std::to_string(kMostDrawnCopies) + " of " +
                                   std::to_string(all) + " objects in placed groups",
                               "the render shows all"});

@@ -43,7 +43,7 @@ ReadRules copyOfCurrent() { return rulesOfThread ? *rulesOfThread : ReadRules{};
 
 }  // namespace
 
-void ReadDenied::at(const Place& place) const {
+void ReadDenied::at(const SourcePlace& place) const {
   Message message = messages().front();
   if (message.place.file.empty()) message.place = place;
   throw ReadDenied(fault(), {message});

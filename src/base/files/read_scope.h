@@ -19,7 +19,7 @@ class ReadDenied : public Error {
  public:
   using Error::Error;
   /// Throws it again, with `place` if it has none.
-  [[noreturn]] void at(const Place& place) const;
+  [[noreturn]] void at(const SourcePlace& place) const;
 };
 
 /// Paths are absolute and without links.

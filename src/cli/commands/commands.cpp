@@ -158,7 +158,7 @@ int runAlone() {
 }  // namespace
 
 Error outOfMemory(const std::string& doing, const std::string& file) {
-  return {Fault::limit, Place{.file = file}, "out of memory" + (doing.empty() ? "" : " while " + doing),
+  return {Fault::limit, SourcePlace{.file = file}, "out of memory" + (doing.empty() ? "" : " while " + doing),
           "--max-memory N allows N MiB; the default is half of the machine's memory"};
 }
 

@@ -136,7 +136,8 @@ Scene sceneToConvert(const std::string& in, const Arguments& arguments, Messages
                          messages);
   SceneAtMoment read = readSceneAtItsMoment(in, bytes, arguments.choices, messages);
   if (read.changesWithTime)
-    messages.warn(Place{.file = in}, "an animated scene is written as it is at " + toText(read.time) + " s",
+    messages.warn(SourcePlace{.file = in},
+                  "an animated scene is written as it is at " + toText(read.time) + " s",
                   "--time X chooses another time");
   return std::move(read.scene);
 }

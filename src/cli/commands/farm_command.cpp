@@ -213,7 +213,7 @@ class Farm {
   [[noreturn]] void refuse(const Tasks& failed) const {
     const std::string log =
         (fs::path(jobs_.path) / ("slurm-" + std::to_string(*failed.begin()) + ".log")).generic_string();
-    throw Error(Fault::io, Place{.file = log},
+    throw Error(Fault::io, SourcePlace{.file = log},
                 (failed.size() == 1 ? "task " : "tasks ") + rangesText(failed) + " ended " +
                     std::to_string(kMostTimes) + " times without writing a part",
                 "this log says why; the same command tries again");

@@ -33,7 +33,7 @@ std::string lintJson(const std::string& scene, std::span<const LintFinding> find
   json["scene"] = scene;
   json["findings"] = Json::list();
   for (const LintFinding& finding : findings) {
-    const Place& place = finding.message.place;
+    const SourcePlace& place = finding.message.place;
     json["findings"].add({{"check", finding.check},
                           {"file", place.file},
                           {"line", place.line},

@@ -48,7 +48,7 @@ Render renderOf(const std::string& folder, const std::vector<Choice>& more) {
   const PartList list = readPartList(folder);
   Render render{parse(list.words, Verb::render), list.parts};
   if (render.arguments.files.size() != 1)
-    throw Error(Fault::io, Place{.file = folder},
+    throw Error(Fault::io, SourcePlace{.file = folder},
                 "its list of parts names " + std::to_string(render.arguments.files.size()) +
                     " scenes instead of one");
   const std::string& scene = render.arguments.files[0];
@@ -80,7 +80,8 @@ std::vector<std::string> filesOfJobs(const std::string& folder, const Render& re
     const std::string path = (fs::path(folder) / entry.name).generic_string();
     const auto head = filmHead(path);
     if (!head)
-      throw Error(Fault::io, Place{.file = path}, "expected a part of a picture, found another kind of file",
+      throw Error(Fault::io, SourcePlace{.file = path},
+                  "expected a part of a picture, found another kind of file",
                   "remove it, and render this part again");
     const auto job = jobs.find(head->identity);
     if (job == jobs.end()) {
@@ -88,12 +89,12 @@ std::vector<std::string> filesOfJobs(const std::string& folder, const Render& re
       for (const auto& [identity, number] : jobs)
         if (IdentityDifference other = differenceOf(head->identity, identity); other.size < nearest.size)
           nearest = std::move(other);
-      throw Error(Fault::io, Place{.file = path}, "this part is of another picture: " + nearest.what,
+      throw Error(Fault::io, SourcePlace{.file = path}, "this part is of another picture: " + nearest.what,
                   "ray split into another folder, or remove the part and render it again");
     }
     std::string& file = files[static_cast<std::size_t>(job->second)];
     if (!file.empty())
-      throw Error(Fault::io, Place{.file = path},
+      throw Error(Fault::io, SourcePlace{.file = path},
                   "part " + std::to_string(job->second + 1) + " is there twice: " + file + " holds it, too",
                   "remove one of the two");
     file = path;

@@ -30,7 +30,7 @@ const std::string& onlyFile(const Arguments& arguments, const std::string& comma
 void checkIsRay(const std::string& file, const TextFront& front, const char* command) {
   if (!recognisesRay(front.text()))
     throw Error(
-        Fault::scene, Place{.file = file}, "expected a scene that begins with SBT-raytracer or Trace",
+        Fault::scene, SourcePlace{.file = file}, "expected a scene that begins with SBT-raytracer or Trace",
         std::string("ray ") + command + " knows the language of .ray files; ray convert reads others");
 }
 

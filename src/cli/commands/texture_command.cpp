@@ -88,7 +88,8 @@ Texture ofScene(const std::string& file, const std::string& name, const Console&
   const Work work("reading the textures");
   const std::string bytes = readFile(file);
   if (!recognisesRay(TextFront(file, bytes).text()))
-    throw Error(Fault::scene, Place{.file = file}, "expected a .ray file, which has textures with names");
+    throw Error(Fault::scene, SourcePlace{.file = file},
+                "expected a .ray file, which has textures with names");
   Messages messages;
   const std::vector<Texture> textures = readNamedTextures(file, bytes, messages);
   for (const Message& message : messages.all())

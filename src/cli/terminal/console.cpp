@@ -74,7 +74,7 @@ void Console::warnings(std::span<const Message> messages) const {
   std::vector<Message> sorted(messages.begin(), messages.end());
   // In the order of each file, and last what concerns all of it.
   std::stable_sort(sorted.begin(), sorted.end(), [](const Message& a, const Message& b) {
-    const auto key = [](const Place& p) { return std::pair(p.line > 0 ? p.line : INT_MAX, p.column); };
+    const auto key = [](const SourcePlace& p) { return std::pair(p.line > 0 ? p.line : INT_MAX, p.column); };
     return std::pair(a.place.file, key(a.place)) < std::pair(b.place.file, key(b.place));
   });
   print(sorted, "warning");

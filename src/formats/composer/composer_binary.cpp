@@ -168,7 +168,7 @@ class BinaryReader {
   }
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(Fault::scene, Place{file_, 0, 0, {}}, "byte " + std::to_string(at_) + ": " + what);
+    throw Error(Fault::scene, SourcePlace{file_, 0, 0, {}}, "byte " + std::to_string(at_) + ": " + what);
   }
 
   const std::string& file_;

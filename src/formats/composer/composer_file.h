@@ -65,7 +65,7 @@ struct Object {
   std::vector<Material> materials;
   std::optional<Sphere> sphere;  ///< otherwise
   PolySet polygons;
-  Place place;
+  SourcePlace place;
 };
 
 struct File {

@@ -93,7 +93,7 @@ class ComposerReader {
   }
 
  private:
-  Place place() const { return {scene_.file, 0, 0, {}}; }
+  SourcePlace place() const { return {scene_.file, 0, 0, {}}; }
 
   void camera() {
     if (!content_.view) {
@@ -153,7 +153,7 @@ class ComposerReader {
   // --- materials ---
 
   /// Warns of numbers that no surface has.
-  void checkRanges(const cf::Material& m, const Place& at) {
+  void checkRanges(const cf::Material& m, const SourcePlace& at) {
     const auto check = [&](const char* name, double low, double high, double most) {
       if (low >= 0 && high <= most) return;
       warnings_.warn(at,
@@ -301,7 +301,7 @@ Scene readComposer(const std::string& file, std::string_view bytes, Messages& me
   const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
   const std::string_view line =
       bytes.substr(first, std::min<std::size_t>(bytes.find('\n', first) - first, 80));
-  const Place place = placeAt(file, bytes, std::min(first + kMagic.size(), bytes.size()));
+  const SourcePlace place = placeAt(file, bytes, std::min(first + kMagic.size(), bytes.size()));
   const auto version = parseNumber(line.substr(std::min(kMagic.size() + 1, line.size())));
   if (!version || !(version->value > 0 && version->value <= 2.1))
     throw Error(Fault::scene, place,

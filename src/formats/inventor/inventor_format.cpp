@@ -28,7 +28,7 @@ Scene Reader::readPart() {
 // --- the whole ---
 
 void Reader::finish() {
-  const Place place{scene_.file, 0, 0, {}};
+  const SourcePlace place{scene_.file, 0, 0, {}};
   if (headlight_ && *headlight_ != scene_.lights.empty())
     warn(*headlightAt_,
          *headlight_ ? "the headlight is left out, since the file has lights"

@@ -108,7 +108,7 @@ void Reader::orthographicCamera(const Values& v, State& s) {
   const bool isFirst = !hasCamera_;
   camera(v, s, {0, 0, 1}, kPi / 4, v.number("aspectRatio", 1));
   if (!isFirst || !hasCamera_) return;
-  const Place place = document_.place(v.node().token);
+  const SourcePlace place = document_.place(v.node().token);
   scene_.choices.push_back({"projection", "orthographic", place});
   scene_.choices.push_back({"view-height", toText(v.number("height", 2)), place});
 }
@@ -121,7 +121,7 @@ void Reader::background(const Values& v, State& state) {
   if (std::exchange(hasBackground_, true))
     return warn(v.node(), "the first Background is shown; others are left out", "backgrounds");
   Background& is = scene_.background;
-  const Place place = document_.place(v.node().token);
+  const SourcePlace place = document_.place(v.node().token);
   const auto picture = [&](std::string_view field) { return Pixels{fileOf(v, field), nullptr, place}; };
   const Dome sky{v.colors("skyColor"), v.numbers("skyAngle")},
       ground{v.colors("groundColor"), v.numbers("groundAngle")};

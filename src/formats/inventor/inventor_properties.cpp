@@ -147,7 +147,7 @@ std::optional<PaintedPicture> Reader::pictureOf(const Values& v) {
           textures_.note(nameOf(Values(*at.node, at.env)), document_.place(at.node->token));
     return first;
   }
-  const Place place = document_.place(v.node().token);
+  const SourcePlace place = document_.place(v.node().token);
   if (type == "MovieTexture") {
     textures_.note(nameOf(v), place);
     return std::nullopt;

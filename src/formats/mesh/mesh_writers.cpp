@@ -250,7 +250,7 @@ std::vector<NamedBytes> writePly(const Scene& scene, const std::string& file, co
   const std::size_t objects = meshes.size();
   const std::string picture = onlyPictureOf(seen.scene, meshes);
   if (picture.empty() && !picturesOf(seen.scene, meshes).empty())
-    messages.warn(Place{scene.file, 0, 0, {}},
+    messages.warn(SourcePlace{scene.file, 0, 0, {}},
                   "the pictures are left out: a PLY file has one for all of it, which is not decoded");
   const MeshData mesh = merged(std::move(meshes));
   const auto& m = mesh.materials;
@@ -319,9 +319,9 @@ std::vector<NamedBytes> writeObj(const Scene& scene, const std::string& file, co
     colored += !part.mesh.materials.empty();
   }
   if (colored > 0)
-    messages.warn(Place{scene.file, 0, 0, {}}, "an OBJ file holds no materials of points: left out for " +
-                                                   std::to_string(colored) +
-                                                   (colored == 1 ? " mesh" : " meshes"));
+    messages.warn(SourcePlace{scene.file, 0, 0, {}},
+                  "an OBJ file holds no materials of points: left out for " + std::to_string(colored) +
+                      (colored == 1 ? " mesh" : " meshes"));
   materialFile.bytes = materials.take();
   std::vector<NamedBytes> files{{file, objects.take(), NamedBytes::Contents{meshes.size(), triangles}},
                                 std::move(materialFile)};

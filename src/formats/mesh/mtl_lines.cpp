@@ -264,7 +264,7 @@ class MtlCheck {
   void warn(std::string_view at, std::string what, std::string_view kind = {}) {
     if (!warnings_.again(kind.empty() ? what : kind)) warnings_.warn(place(at), std::move(what), {}, kind);
   }
-  Place place(std::string_view at) const {
+  SourcePlace place(std::string_view at) const {
     return placeAt(file_, text_, static_cast<std::size_t>(at.data() - lines_.data()));
   }
 
@@ -319,7 +319,7 @@ class MtlCheck {
         });
     if (picture.empty()) return warn(at, std::string(key) + ": expected the name of a picture");
     if (!pictures_.find(key, picture)) pictures_.note(key, picture, {place(picture), std::string(at)});
-    if (!listed(kRendered, key)) textures_.note(picture, textures_.empty() ? place(at) : Place(), at);
+    if (!listed(kRendered, key)) textures_.note(picture, textures_.empty() ? place(at) : SourcePlace(), at);
   }
 
   const std::string& file_;

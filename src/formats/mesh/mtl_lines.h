@@ -15,7 +15,7 @@ namespace trace {
 class MapPlaces {
  public:
   struct Line {
-    Place place;
+    SourcePlace place;
     std::string keyword;  ///< as the file has it
   };
   /// `keyword` is one of a map, in any of its spellings.

@@ -467,13 +467,13 @@ class ObjReader {
     if (!warnings_.again(kind.empty() ? what : kind))
       warnings_.warn(place(at), what + "; " + consequence, std::move(hint), kind.empty() ? what : kind);
   }
-  Place place(std::string_view at) const { return placeAt(file_, bytes_, offset(at)); }
+  SourcePlace place(std::string_view at) const { return placeAt(file_, bytes_, offset(at)); }
   std::size_t offset(std::string_view at) const {
     return static_cast<std::size_t>(at.data() - lines_.data());
   }
 
   const std::string& file_;
-  Place place_;
+  SourcePlace place_;
   std::string_view bytes_, lines_;
   std::string room_;
   Messages& messages_;

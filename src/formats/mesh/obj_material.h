@@ -15,10 +15,10 @@ namespace trace {
 
 /// The names of its pictures, and the pictures.
 struct MtlPictures {
-  std::function<Place(std::string_view, const std::string&)> placeOf;  ///< where this keyword names it
-  std::function<std::string(const std::string&)> nameOf;               ///< as seen from the mesh's file
-  std::function<bool(const std::string&)> isTransparent;               ///< the picture of that name may be
-  std::function<void(std::string_view, const std::string&)> unused;    ///< this keyword's is not rendered
+  std::function<SourcePlace(std::string_view, const std::string&)> placeOf;  ///< where this keyword names it
+  std::function<std::string(const std::string&)> nameOf;                     ///< as seen from the mesh's file
+  std::function<bool(const std::string&)> isTransparent;             ///< the picture of that name may be
+  std::function<void(std::string_view, const std::string&)> unused;  ///< this keyword's is not rendered
 };
 
 /// The material with its pictures; nothing if it has numbers that are not finite.

@@ -27,7 +27,7 @@ void ObjMaterials::read(std::string_view names, std::size_t offset) {
              placeAt(file_, bytes_, offset + static_cast<std::size_t>(word.data() - names.data())));
 }
 
-void ObjMaterials::readFile(const std::string& name, const Place& place) {
+void ObjMaterials::readFile(const std::string& name, const SourcePlace& place) {
   if (name.empty() || !readFiles_.insert(name).second) return;
   try {
     const NamedFile found = namedFile(file_, name);
@@ -49,7 +49,7 @@ void ObjMaterials::readFile(const std::string& name, const Place& place) {
 }
 
 /// Those of a file that was read.
-void ObjMaterials::addMaterials(const std::string& name, const Place& place) {
+void ObjMaterials::addMaterials(const std::string& name, const SourcePlace& place) {
   const std::string path = namedFile(file_, name).path;
   std::set<std::string> names;
   for (const tinyobj::material_t& material : materials_)
@@ -60,18 +60,18 @@ void ObjMaterials::addMaterials(const std::string& name, const Place& place) {
   const MtlPictures pictures{
       [&](std::string_view keyword, const std::string& picture) {
         const MapPlaces::Line* line = maps_.find(keyword, picture);
-        return line ? line->place : Place{.file = path};
+        return line ? line->place : SourcePlace{.file = path};
       },
       [&](const std::string& picture) { return pictureName(name, picture); },
       [&](const std::string& picture) { return kindOfPicture(file_, picture).transparent; },
       [&](std::string_view keyword, const std::string& picture) {
         const MapPlaces::Line* line = maps_.find(keyword, picture);
-        unused_.note(picture, line ? line->place : Place{.file = path}, line ? line->keyword : keyword);
+        unused_.note(picture, line ? line->place : SourcePlace{.file = path}, line ? line->keyword : keyword);
       }};
   for (std::size_t i = model_.materials.size(); i < materials_.size(); ++i) {
     auto material = materialOf(materials_[i], pictures);
     if (!material)
-      messages_.warn(Place{.file = file_},
+      messages_.warn(SourcePlace{.file = file_},
                      "material \"" + materials_[i].name + "\" has numbers that are not finite");
     model_.materials.push_back(material ? std::move(*material) : plainMaterial());
   }

@@ -46,8 +46,8 @@ class ObjMaterials {
   void report();
 
  private:
-  void readFile(const std::string& name, const Place& place);
-  void addMaterials(const std::string& name, const Place& place);
+  void readFile(const std::string& name, const SourcePlace& place);
+  void addMaterials(const std::string& name, const SourcePlace& place);
   std::string pictureName(const std::string& materialFile, const std::string& picture) const;
   void notePictures(const tinyobj::material_t& m, const std::string& materialFile);
   void warnUndefined();

@@ -80,7 +80,7 @@ class OffReader {
     warnings_.report(messages_);
     unusable_.report("faces of fewer than 3 points are left out", messages_);
     if (!words_.next().empty()) messages_.warn(words_.place(), "what follows the last face is ignored");
-    addOnlyMesh(model_, std::move(mesh_), repairs_, find, Place{file_, 0, 0, {}}, messages_);
+    addOnlyMesh(model_, std::move(mesh_), repairs_, find, SourcePlace{file_, 0, 0, {}}, messages_);
     return std::move(model_);
   }
 
@@ -96,7 +96,7 @@ class OffReader {
 
   /// The number of times that something came, and the place of the first.
   struct Times {
-    Place first{};
+    SourcePlace first{};
     std::size_t count = 0;
     void add(const Words& words) {
       if (count++ == 0) first = words.place();

@@ -403,7 +403,7 @@ class PlyReader {
     warnings_.warn(body_.place(), text + "; it is left out", {}, "lost");
   }
 
-  Place place() const { return {file_, 0, 0, {}}; }
+  SourcePlace place() const { return {file_, 0, 0, {}}; }
   [[noreturn]] void fail(std::string what) const { throw Error(Fault::scene, place(), std::move(what)); }
 
   const std::string& file_;
@@ -419,7 +419,7 @@ class PlyReader {
   std::optional<Message> lost_;  ///< the first that costs a face
   std::size_t vertices_ = 0;     ///< that the header counts
   std::size_t unusable_ = 0, wrongUvs_ = 0;
-  Place firstUnusable_{}, firstWrongUvs_{}, faceColorsAt_{};
+  SourcePlace firstUnusable_{}, firstWrongUvs_{}, faceColorsAt_{};
   bool hasVertices_ = false, hasFaces_ = false, hasFaceColors_ = false, hasFaceUvs_ = false;
   MeshRepairs repairs_;
   std::optional<Body> beforePoints_;  ///< at their first row

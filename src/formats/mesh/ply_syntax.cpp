@@ -199,7 +199,7 @@ class HeaderReader {
   }
 
   [[noreturn]] void fail(std::string what) const { throw Error(Fault::scene, linePlace(), std::move(what)); }
-  Place linePlace() const { return placeAt(file_, bytes_.substr(0, at_), lineStart_); }
+  SourcePlace linePlace() const { return placeAt(file_, bytes_.substr(0, at_), lineStart_); }
 
   const std::string& file_;
   std::string_view bytes_;
@@ -238,12 +238,12 @@ Body::Body(const std::string& file, std::string_view bytes, const Header& header
   rowsAreLines_ = rows > 0 && lines >= rows;
 }
 
-Place Body::place() const {
+SourcePlace Body::place() const {
   return encoding_ == Encoding::text ? placeAt(file_, bytes_, std::min(rowAt_, bytes_.size()))
-                                     : Place{file_, 0, 0, {}};
+                                     : SourcePlace{file_, 0, 0, {}};
 }
 
-Place Body::nextPlace() const {
+SourcePlace Body::nextPlace() const {
   if (encoding_ != Encoding::text) return {file_, 0, 0, {}};
   return placeAt(file_, bytes_, std::min(bytes_.find_first_not_of(" \t\r\n", at_), bytes_.size()));
 }
@@ -265,7 +265,8 @@ void Body::endRow() {
 
 void Body::fail(std::string what) const {
   if (encoding_ == Encoding::text) throw Error(Fault::scene, placeAt(file_, bytes_, at_), std::move(what));
-  throw Error(Fault::scene, Place{file_, 0, 0, {}}, what + " (byte " + std::to_string(at_) + " of the file)");
+  throw Error(Fault::scene, SourcePlace{file_, 0, 0, {}},
+              what + " (byte " + std::to_string(at_) + " of the file)");
 }
 
 std::size_t Body::left() const {

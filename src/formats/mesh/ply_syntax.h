@@ -27,14 +27,14 @@ struct Property {
   Type type;  ///< type of the number, or of a list's items
   bool isList = false;
   Type countType = Type::uint8;  ///< count type of a list
-  Place place{};                 ///< its line in the header
+  SourcePlace place{};           ///< its line in the header
 };
 
 struct Element {
   std::string name;
   std::size_t count = 0;
   std::vector<Property> properties;
-  Place place{};  ///< its line in the header
+  SourcePlace place{};  ///< its line in the header
 
   /// The index of the first of these properties that it has, or -1.
   int find(const std::vector<std::string_view>& names) const;
@@ -45,10 +45,10 @@ struct Header {
   Encoding encoding = Encoding::text;
   std::vector<Element> elements;
   std::size_t end = 0;  ///< offset of the body
-  std::vector<std::pair<std::string, Place>>
+  std::vector<std::pair<std::string, SourcePlace>>
       textures;  ///< that comments name, as scanners' programs write them
   /// Lines that are none of a header, as some programs write their names.
-  std::vector<std::pair<std::string, Place>> unknown;
+  std::vector<std::pair<std::string, SourcePlace>> unknown;
 };
 
 /// Throws Error(Fault::scene).
@@ -87,13 +87,13 @@ class Body {
 
   [[noreturn]] void fail(std::string what) const;
   /// Where the row begins that was read last; in a text.
-  Place place() const;
+  SourcePlace place() const;
   /// Where the next value is; in a text.
-  Place nextPlace() const;
+  SourcePlace nextPlace() const;
 
   /// Rows of a text behind whose values others stand on the same line, which are skipped.
   std::size_t surplus() const { return surplus_; }
-  const Place& firstSurplus() const { return firstSurplus_; }
+  const SourcePlace& firstSurplus() const { return firstSurplus_; }
 
   /// Words of a text that are no numbers, which are read as NaN, and the first.
   std::size_t wrongWords() const { return wrongWords_; }
@@ -124,7 +124,7 @@ class Body {
   std::string what_;  ///< the row being read, for messages
   bool rowsAreLines_ = false;
   std::size_t rowAt_ = 0, surplus_ = 0, wrongWords_ = 0;
-  Place firstSurplus_{};
+  SourcePlace firstSurplus_{};
   Message firstWrong_{};
 };
 

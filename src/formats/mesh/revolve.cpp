@@ -53,7 +53,7 @@ Material painted(const std::string& from, const std::string& picture, InputFiles
   const std::string bytes = readBeside("", pictureName(picture).file, inputs);
   const fs::path folder = fs::absolute(from).parent_path().lexically_normal();
   const Pixels pixels{fs::absolute(picture).lexically_normal().lexically_relative(folder).generic_string(),
-                      MipMap::decode(bytes, picture), Place{.file = picture}};
+                      MipMap::decode(bytes, picture), SourcePlace{.file = picture}};
   const Texture texture = TextureNode{.model = modelPicture(pixels)};
   Phong phong;
   phong.ambient = phong.diffuse = Color(1);
@@ -78,7 +78,7 @@ std::vector<Vec2> readProfile(const std::string& file, std::string_view text) {
     if (profile.size() > kMostPoints) words.fail("expected at most 100000 points, found more");
   }
   if (profile.size() < 2)
-    throw Error(Fault::scene, Place{file, 0, 0, {}},
+    throw Error(Fault::scene, SourcePlace{file, 0, 0, {}},
                 "expected a profile of at least 2 points, found " + std::to_string(profile.size()));
   return profile;
 }
@@ -109,7 +109,7 @@ MeshData revolve(std::span<const Vec2> profile, int steps) {
 
 Scene revolvedScene(const std::string& file, std::string_view text, int steps, const std::string& picture,
                     Messages& messages) {
-  const Place place{file, 0, 0, {}};
+  const SourcePlace place{file, 0, 0, {}};
   MeshData mesh = revolve(readProfile(file, text), steps);
   MeshRepairs repairs;
   repairs.check(mesh, place);

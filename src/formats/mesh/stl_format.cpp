@@ -66,7 +66,7 @@ class Solid {
 
   /// `spotOf` gives the spot of a byte.
   template <class SpotOf>
-  void finish(std::string name, const Place& place, const SpotOf& spotOf, Model& model,
+  void finish(std::string name, const SourcePlace& place, const SpotOf& spotOf, Model& model,
               MeshRepairs& repairs) {
     MeshData mesh;
     mesh.points = points_.keys();
@@ -104,7 +104,7 @@ void warnOfTurned(const CountedFlaw& turned, Messages& messages) {
   turned.report("facets whose corners run the other way round than their normals say are turned", messages);
 }
 
-Model readBinary(const Place& place, std::string_view bytes, MeshRepairs& repairs, Messages& messages) {
+Model readBinary(const SourcePlace& place, std::string_view bytes, MeshRepairs& repairs, Messages& messages) {
   Solid solid;
   const std::size_t whole = (bytes.size() - kHeader) / kFacet, facets = facetsOf(bytes);
   if (facets > whole)
@@ -139,7 +139,7 @@ Model readBinary(const Place& place, std::string_view bytes, MeshRepairs& repair
 /// solid NAME { facet normal x y z outer loop { vertex x y z } endloop endfacet } endsolid NAME
 class TextReader {
  public:
-  TextReader(const Place& place, std::string_view bytes, MeshRepairs& repairs, Messages& messages)
+  TextReader(const SourcePlace& place, std::string_view bytes, MeshRepairs& repairs, Messages& messages)
       : place_(place), words_(place.file, bytes, '\0'), repairs_(repairs), messages_(messages) {}
 
   Model read() {
@@ -214,7 +214,7 @@ class TextReader {
     return Vec3f(Vec3{x, y, z});
   }
 
-  const Place& place_;
+  const SourcePlace& place_;
   Words words_;
   MeshRepairs& repairs_;
   Messages& messages_;
@@ -232,7 +232,7 @@ bool mayBeStl(std::string_view bytes) {
 }
 
 Model readStl(const std::string& file, std::string_view bytes, Messages& messages) {
-  const Place place{file, 0, 0, {}};
+  const SourcePlace place{file, 0, 0, {}};
   MeshRepairs repairs;
   Model model = isBinary(bytes) || (mayBeStl(bytes) && !isText(bytes))
                     ? readBinary(place, bytes, repairs, messages)

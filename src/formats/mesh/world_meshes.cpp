@@ -48,7 +48,7 @@ bool isWritten(const FieldTexture& field, const ImageMap* picture) {
 }
 
 /// Says what of the scene a file of meshes has no words for.
-void warnOfTheRest(const Scene& scene, const Place& place, Messages& messages) {
+void warnOfTheRest(const Scene& scene, const SourcePlace& place, Messages& messages) {
   std::vector<std::string> parts;
   const bool hasView = !isPlainView(scene);  // a mesh file has none of its own
   if (hasView && !(scene.camera == Camera{})) parts.emplace_back("the camera");
@@ -83,7 +83,7 @@ std::optional<MeshData> ShapeTriangles::of(const Shape& shape, bool mapped) {
   return mesh;
 }
 
-void ShapeTriangles::report(const Place& place, const std::string& known, bool nothing,
+void ShapeTriangles::report(const SourcePlace& place, const std::string& known, bool nothing,
                             Messages& messages) const {
   const char *kHolds = "a .ray file stores every shape",
              *kWhy =
@@ -106,7 +106,7 @@ void ShapeTriangles::report(const Place& place, const std::string& known, bool n
 }
 
 std::vector<WorldMesh> worldMeshes(const Scene& scene, const WriteOptions& options, Messages& messages) {
-  const Place place{scene.file, 0, 0, {}};
+  const SourcePlace place{scene.file, 0, 0, {}};
   std::vector<WorldMesh> meshes;
   ShapeTriangles shapes(options.steps);
   Work work("making triangles of the objects", static_cast<std::int64_t>(scene.objects.size()));

@@ -31,7 +31,7 @@ class ShapeTriangles {
   void leaveOut(const Shape& shape) { ++leftOut_[std::string(shape.keyword())]; }
   /// Warns that all shapes but the `known` became triangles, of too few steps, and of what was left out, by
   /// kinds. Throws Error(Fault::scene) if `nothing` is left.
-  void report(const Place& place, const std::string& known, bool nothing, Messages& messages) const;
+  void report(const SourcePlace& place, const std::string& known, bool nothing, Messages& messages) const;
 
  private:
   bool wanted_, any_ = false;

@@ -48,8 +48,8 @@ World Reader::read() {
 
 // --- tokens ---
 
-Place Reader::place(const Token& at) const {
-  return at.source ? at.source->place(at.offset) : Place{.file = file_};
+SourcePlace Reader::place(const Token& at) const {
+  return at.source ? at.source->place(at.offset) : SourcePlace{.file = file_};
 }
 
 void Reader::fail(const Token& at, const std::string& what, const std::string& hint) {
@@ -58,7 +58,7 @@ void Reader::fail(const Token& at, const std::string& what, const std::string& h
   for (std::size_t i = frames_.size(); i-- > 1 && shown < 3;) {
     const Frame& outer = frames_[i - 1];
     if (outer.at == 0) continue;
-    const Place from = place(outer.source->tokens[outer.at - 1]);
+    const SourcePlace from = place(outer.source->tokens[outer.at - 1]);
     chain += (chain.empty() ? "" : ", ") +
              std::string(frames_[i].macro ? "in a macro called at " : "included at ") + from.file + ":" +
              std::to_string(from.line);

@@ -69,12 +69,12 @@ Scene readPov(const std::string& file, std::string_view bytes, Messages& message
     reader = std::make_unique<pov::Reader>(file, bytes, scene.inputs, time, messages);
     reader->setAnimated();
     world = reader->read();
-    messages.warn(Place{.file = file},
+    messages.warn(SourcePlace{.file = file},
                   "frame_number is 1: only as part of an animation can the scene be read");
   }
   pov::addTo(scene, world, reader->warnings());
   reader->warnings().report(messages);
-  if (scene.objects.empty()) messages.warn(Place{.file = file}, "no object: the picture will be empty");
+  if (scene.objects.empty()) messages.warn(SourcePlace{.file = file}, "no object: the picture will be empty");
   return scene;
 }
 

@@ -17,7 +17,7 @@
 namespace trace::pov {
 
 /// Omissions that are reported where something is used, with the place that says it.
-using Omissions = std::vector<std::pair<std::string, Place>>;
+using Omissions = std::vector<std::pair<std::string, SourcePlace>>;
 
 /// A picture that a pattern or a height field names.
 struct ImageNode {
@@ -43,7 +43,7 @@ struct PatternNode {
   ImageNode image;
   Ref<Formula> formula;
   Ref<PigmentNode> pigment;
-  Place place{};
+  SourcePlace place{};
 };
 
 template <class T>
@@ -55,7 +55,7 @@ struct PigmentNode {
   Entries<PigmentNode> entries;  ///< entries of a map, or of a list in its order
   Affine at;                     ///< outside from inside
   bool uv = false;
-  Place place;
+  SourcePlace place;
   Omissions left;
 };
 
@@ -63,7 +63,7 @@ struct NormalNode {
   std::optional<PatternNode> pattern;
   Real amount = 0.5;
   Affine at;
-  Place place;
+  SourcePlace place;
   Omissions left;
 };
 
@@ -92,7 +92,7 @@ struct MediaNode {
   Real eccentricity = 0;
   Ref<PigmentNode> density;
   Affine at;
-  Place place{};
+  SourcePlace place{};
 };
 
 struct InteriorNode {
@@ -123,7 +123,7 @@ struct Node {
   enum class Kind { nothing, shape, light, unite, merge, intersect, subtract };
 
   Kind kind = Kind::nothing;
-  Place place;
+  SourcePlace place;
   std::string name;
   std::optional<Shape> shape;
   Affine shapeAt;                ///< object from Trace's shape
@@ -145,7 +145,7 @@ struct CameraNode {
   std::optional<Vec3> lookAt;
   Real angle = 0, aperture = 0;
   std::optional<Vec3> focalPoint;
-  Place place;
+  SourcePlace place;
 };
 
 struct FogNode {
@@ -154,13 +154,13 @@ struct FogNode {
   int type = 1;
   Real offset = 0, height = 0;
   bool moved = false;
-  Place place;
+  SourcePlace place;
 };
 
 struct SkyNode {
   std::vector<Ref<PigmentNode>> pigments;
   Affine at;
-  Place place;
+  SourcePlace place;
 };
 
 /// A color_map, pigment_map, texture_map ...

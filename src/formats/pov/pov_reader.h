@@ -118,7 +118,7 @@ class Reader {
   void comma() { takesMark(","); }
   [[noreturn]] void fail(const Token& at, const std::string& what, const std::string& hint = {});
   [[noreturn]] void expected(std::string_view what, const std::string& hint = {});
-  Place place(const Token& at) const;
+  SourcePlace place(const Token& at) const;
   void leaveOut(const Token& at, const std::string& what, const std::string& hint = {});
 
   // --- expressions (pov_expressions.cpp) ---

@@ -57,11 +57,11 @@ class Builder {
   std::optional<Operand> plainOperand(SolidPart part);
   std::uint32_t material(const Around& around, const Affine& worldFromObject, bool uv);
   Around within(const Node& node, const Affine& world, Around around) const;
-  void leaveOut(const Place& place, const std::string& what, const std::string& hint = {}) {
+  void leaveOut(const SourcePlace& place, const std::string& what, const std::string& hint = {}) {
     if (!warnings_.again(what + " is left out")) warnings_.warn(place, what + " is left out", hint);
   }
   void choose(const char* option, std::string value) {
-    scene_.choices.push_back({option, std::move(value), Place{.file = scene_.file}});
+    scene_.choices.push_back({option, std::move(value), SourcePlace{.file = scene_.file}});
   }
 
   Scene& scene_;
@@ -157,7 +157,7 @@ Around Builder::within(const Node& node, const Affine& world, Around around) con
 
 void Builder::add(Shape shape, const Affine& worldFromObject, std::uint32_t material, const Node& node) {
   if (!invertible(worldFromObject)) return leaveOut(node.place, "an object that is squeezed flat");
-  Place place = node.place;
+  SourcePlace place = node.place;
   scene_.objects.push_back({node.name, std::move(shape), worldFromObject, material, std::move(place)});
 }
 
@@ -327,7 +327,7 @@ std::optional<SolidPart> Builder::solid(const Node& node, const Affine& worldFro
 void Builder::light(const Node& node, const Affine& world, Around around, int depth) {
   const LightNode& l = node.light;
   const Vec3 position = world * l.position, at = world * l.pointAt;
-  const Place place = node.place;
+  const SourcePlace place = node.place;
   around.noShadow = true;
   for (const Ref<Node>& look : node.parts)
     emit(*look, world * Affine::translation(l.position), around, depth + 1);
@@ -463,11 +463,13 @@ void Builder::settings() {
   const bool linear = world_.gamma == 0 ? world_.version >= 3.7 : std::abs(world_.gamma - 1) < 0.3;
   choose("transfer", linear ? "srgb" : "linear");
   if (world_.radiosity)
-    leaveOut(Place{.file = scene_.file}, "radiosity", "--integrator path renders light between surfaces");
+    leaveOut(SourcePlace{.file = scene_.file}, "radiosity",
+             "--integrator path renders light between surfaces");
   if (world_.photons)
-    leaveOut(Place{.file = scene_.file}, "photons", "--integrator photon or --caustics renders caustics");
+    leaveOut(SourcePlace{.file = scene_.file}, "photons",
+             "--integrator photon or --caustics renders caustics");
   if (!isBlack(world_.ambientLight))
-    scene_.lights.push_back({AmbientLight{world_.ambientLight}, Place{.file = scene_.file}});
+    scene_.lights.push_back({AmbientLight{world_.ambientLight}, SourcePlace{.file = scene_.file}});
   for (const FogNode& fog : world_.fogs) {
     if (&fog != &world_.fogs.front()) {
       leaveOut(fog.place, "a second fog");

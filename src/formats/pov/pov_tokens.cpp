@@ -23,7 +23,7 @@ Source::Source(std::string name, std::string bytes) : file(std::move(name)), tex
   split();
 }
 
-Place Source::place(std::size_t offset) const {
+SourcePlace Source::place(std::size_t offset) const {
   constexpr std::size_t kLongestLine = 500;
   const auto next = std::upper_bound(lineStarts_.begin(), lineStarts_.end(), offset);
   const auto line = static_cast<std::size_t>(next - lineStarts_.begin());

@@ -45,7 +45,7 @@ struct Source {
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
-  Place place(std::size_t offset) const;
+  SourcePlace place(std::size_t offset) const;
 
  private:
   void split();

@@ -292,7 +292,7 @@ class UbcReader {
   Scene scene_;
   int width_ = 640, height_ = 640;
   View view_;
-  Place viewPlace_{scene_.file, 0, 0, {}};
+  SourcePlace viewPlace_{scene_.file, 0, 0, {}};
   std::optional<int> supersampling_;
   std::vector<Affine> stack_{Affine{}};
   MaterialReader materials_{values_, scene_};

@@ -24,7 +24,7 @@ class OldReader {
   Scene read() {
     int width = 640, height = 480;
     View view;
-    Place viewPlace{scene_.file, 0, 0, {}};
+    SourcePlace viewPlace{scene_.file, 0, 0, {}};
     while (!tokens_.atEnd()) {
       const Token name = tokens_.word("scene");
       if (name.text == "Resolution") {
@@ -85,7 +85,7 @@ class OldReader {
   }
 
   void material() {
-    const Place place = tokens_.place(tokens_.peek());
+    const SourcePlace place = tokens_.place(tokens_.peek());
     const std::string name = id("Material");
     Surface s;
     s.ambient = color("Material");

@@ -27,7 +27,7 @@ Phong phong(const Surface& s) {
   return phong;
 }
 
-void addLamp(Scene& scene, const Lamp& lamp, const Place& place) {
+void addLamp(Scene& scene, const Lamp& lamp, const SourcePlace& place) {
   if (!isBlack(lamp.ambient)) scene.lights.push_back({AmbientLight{lamp.ambient}, place});
   PointLight light{.position = lamp.position, .color = lamp.diffuse};
   light.constant = lamp.attenuation.x;
@@ -39,7 +39,7 @@ void addLamp(Scene& scene, const Lamp& lamp, const Place& place) {
   scene.lights.push_back({light, place});
 }
 
-Camera camera(const View& view, const Place& place) {
+Camera camera(const View& view, const SourcePlace& place) {
   Camera camera;
   camera.position = view.eye;
   camera.viewdir = view.center - view.eye;
@@ -60,15 +60,15 @@ Camera camera(const View& view, const Place& place) {
   return camera;
 }
 
-void warnOfNothing(const Scene& scene, const View& view, const Place& viewPlace, Messages& messages) {
-  const Place place{scene.file, 0, 0, {}};
+void warnOfNothing(const Scene& scene, const View& view, const SourcePlace& viewPlace, Messages& messages) {
+  const SourcePlace place{scene.file, 0, 0, {}};
   if (!(view.near < view.far))
     messages.warn(viewPlace, "expected near to be less than far, found " + toText(view.near) + " and " +
                                  toText(view.far) + ": nothing is seen");
   if (scene.objects.empty()) messages.warn(place, "no object: the picture will be empty");
 }
 
-void warnOfRanges(const Material& material, const Place& place, WarningsByKind& warnings) {
+void warnOfRanges(const Material& material, const SourcePlace& place, WarningsByKind& warnings) {
   const Phong phong = phongOf(material);
   const auto check = [&](const char* name, double value, double most) {
     if (value >= 0 && value <= most) return;
@@ -91,7 +91,7 @@ void warnOfRanges(const Material& material, const Place& place, WarningsByKind& 
 }
 
 void addChoices(Scene& scene, int width, int height, const View& view) {
-  const Place place{scene.file, 0, 0, {}};
+  const SourcePlace place{scene.file, 0, 0, {}};
   for (const auto& [option, value] : {std::pair<std::string, std::string>{"like", "ubc"},
                                       {"depth", "9"},
                                       {"width", std::to_string(width)},

@@ -26,7 +26,7 @@ struct Lamp {
   Vec3 attenuation;  ///< constant, linear, quadratic; all 0: the light does not fade
   Real radius = 0;   ///< radius of the luminous ball
 };
-void addLamp(Scene& scene, const Lamp& lamp, const Place& place);
+void addLamp(Scene& scene, const Lamp& lamp, const SourcePlace& place);
 
 /// Camera with gluLookAt and gluPerspective; the limits near and far are along the ray.
 struct View {
@@ -34,12 +34,12 @@ struct View {
   Real fovy = 45, aspect = 1, near = 1, far = 10000;
 };
 /// Throws Error(Fault::scene) at the place if it cannot look.
-Camera camera(const View& view, const Place& place);
+Camera camera(const View& view, const SourcePlace& place);
 
 /// Warns of a scene that shows nothing: no object, no light, a view that ends before it begins.
-void warnOfNothing(const Scene& scene, const View& view, const Place& viewPlace, Messages& messages);
+void warnOfNothing(const Scene& scene, const View& view, const SourcePlace& viewPlace, Messages& messages);
 /// Warns of numbers of a material that no surface has.
-void warnOfRanges(const Material& material, const Place& place, WarningsByKind& warnings);
+void warnOfRanges(const Material& material, const SourcePlace& place, WarningsByKind& warnings);
 
 /// The conventions, 9 bounces, the size of the picture, the depth beside it, from black at `view.near` to
 /// white at `view.far`, and where the two go: NAME_out.bmp and NAME_out_depth.bmp beside the scene.

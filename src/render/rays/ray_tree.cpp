@@ -51,7 +51,7 @@ const MediumTerm* turnedBy(const RayNode& node) {
 }
 
 /// The object and its position: "sphere (scene.ray:12)".
-std::string named(std::string_view keyword, const Place& place) {
+std::string named(std::string_view keyword, const SourcePlace& place) {
   std::string text(keyword);
   if (const std::string where = shortPlace(place); !where.empty()) text += " (" + where + ")";
   return text;
@@ -168,7 +168,7 @@ std::optional<std::uint32_t> lightOf(const RayTree& tree, int node) {
   return term->light ? term->light->light : term->scattered;
 }
 
-std::string shortPlace(const Place& place) {
+std::string shortPlace(const SourcePlace& place) {
   std::string text = place.file.substr(place.file.find_last_of('/') + 1);
   if (place.line > 0) text += ":" + std::to_string(place.line);
   return text;

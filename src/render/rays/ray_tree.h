@@ -308,7 +308,7 @@ std::string lightName(const Scene& scene, std::uint32_t light);
 /// "it shines elsewhere (its cone, flaps, picture or back)".
 std::string_view sentence(const DarkTerm& dark);
 /// "scene.ray:12", without folders; "" for a place in no file.
-std::string shortPlace(const Place& place);
+std::string shortPlace(const SourcePlace& place);
 
 /// Why the ray ended there, in plain words without a full stop: "left the scene: background". Names objects
 /// as `scene` does.

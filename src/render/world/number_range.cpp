@@ -46,7 +46,7 @@ bool isInRange(const Camera& camera) {
   return isShortEnough(camera.position) && isLength(camera.viewdir) && isLength(camera.updir);
 }
 
-void LeftOut::add(const Place& place) {
+void LeftOut::add(const SourcePlace& place) {
   if (count_++ == 0) first_ = place;
 }
 

@@ -27,12 +27,12 @@ bool isInRange(const Camera& camera);
 class LeftOut {
  public:
   explicit LeftOut(std::string what) : what_(std::move(what)) {}
-  void add(const Place& place);
+  void add(const SourcePlace& place);
   void warn(Messages& messages) const;
 
  private:
   std::string what_;
-  Place first_;
+  SourcePlace first_;
   int count_ = 0;
 };
 

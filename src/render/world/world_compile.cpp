@@ -248,11 +248,11 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   const Camera camera = cameraFor(scene, settings);
   if (!(camera.fov > 0 && camera.fov < 180) || !(camera.aspectratio > 0) || !isFinite(camera.position) ||
       !(length(cross(camera.viewdir, camera.updir)) > 0))
-    throw Error(Fault::scene, Place{.file = scene.file},
+    throw Error(Fault::scene, SourcePlace{.file = scene.file},
                 "the camera cannot look: its field of view, aspect ratio or axes are degenerate",
                 "viewdir and updir must not be zero or parallel");
   if (!isInRange(camera))
-    throw Error(Fault::scene, Place{.file = scene.file},
+    throw Error(Fault::scene, SourcePlace{.file = scene.file},
                 "the camera cannot look: its place or its axes are too far away, too long or too short",
                 "its position is at most 1e75 from the origin, its axes are between 1e-75 and 1e75 long");
   Optics optics = opticsOf(settings);

@@ -48,7 +48,7 @@ class Photometry {
 struct PhotometryFile {
   std::string file;  ///< as the scene names it
   std::shared_ptr<const Photometry> data;
-  Place place;  ///< where the scene names it
+  SourcePlace place;  ///< where the scene names it
   bool operator==(const PhotometryFile& other) const { return file == other.file; }
 };
 

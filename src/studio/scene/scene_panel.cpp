@@ -82,7 +82,7 @@ void branch(Studio& studio, Selected kind, const char* title, std::size_t count,
 
 // --- what is selected ---------------------------------------------------------------------------------
 
-void heading(Studio& studio, const std::string& name, std::string_view help, const Place& place) {
+void heading(Studio& studio, const std::string& name, std::string_view help, const SourcePlace& place) {
   ImGui::TextColored(studio.palette().accent, "%s", name.c_str());
   if (place.line > 0) {
     ImGui::SameLine();

@@ -11,7 +11,7 @@ namespace {
 
 using Selected = Studio::Selected;
 
-std::string withLine(const std::string& name, const Place& place) {
+std::string withLine(const std::string& name, const SourcePlace& place) {
   return place.line > 0 ? name + ", line " + std::to_string(place.line) : name;
 }
 

@@ -157,7 +157,7 @@ class BinaryReader {
   static constexpr const char* kConverter = "ivcat of Debian's inventor-clients makes a text file of it";
 
   [[noreturn]] void fail(const std::string& what, const char* hint = "") const {
-    throw Error(Fault::scene, Place{.file = file_}, "byte " + std::to_string(at_) + ": " + what, hint);
+    throw Error(Fault::scene, SourcePlace{.file = file_}, "byte " + std::to_string(at_) + ": " + what, hint);
   }
 
   // --- what the file is made of ---

@@ -29,7 +29,7 @@ Document::Version versionOf(const std::string& file, std::string_view line) {
   if (begins("#Inventor") && hasWord(line, "ascii")) return Document::Version::inventor;
   if (begins("#VRML V1.0")) return Document::Version::vrml1;
   if (begins("#VRML V2.0") || begins("#X3D")) return Document::Version::vrml2;
-  throw Error(Fault::scene, Place{file, 1, 1, std::string(line)},
+  throw Error(Fault::scene, SourcePlace{file, 1, 1, std::string(line)},
               "expected #Inventor V2.1 ascii or binary, #VRML V1.0 ascii or #VRML V2.0 utf8");
 }
 
@@ -307,7 +307,7 @@ const Proto* Parser::protoOf(const std::string& file, const std::string& proto) 
   const auto [known, fresh] = document_.protoFiles_->try_emplace(path);
   if (fresh) {
     std::string text = readTextBeside(document_.file(), file, document_.inputs_, messages_);
-    if (!hasHeader(text)) throw Error(Fault::scene, Place{.file = path}, path + " is no VRML file");
+    if (!hasHeader(text)) throw Error(Fault::scene, SourcePlace{.file = path}, path + " is no VRML file");
     // The map may grow meanwhile, and its elements stay where they are.
     known->second =
         std::make_shared<const ProtoFile>(path, std::move(text), messages_, document_.protoFiles_);
@@ -319,7 +319,7 @@ const Proto* Parser::protoOf(const std::string& file, const std::string& proto) 
   return nullptr;
 }
 
-Place Document::place(const Token& token) const {
+SourcePlace Document::place(const Token& token) const {
   const auto holds = [&](const Document& document) { return document.tokens_.holds(token); };
   if (!holds(*this))
     for (const auto& [path, file] : *protoFiles_)

@@ -70,7 +70,7 @@ class Document {
   std::size_t size() const { return size_; }  ///< length of its text, in bytes
   const std::string& file() const { return tokens_.file(); }
   /// The place of a token of this file, or of one whose PROTOs it uses.
-  Place place(const Token& token) const;
+  SourcePlace place(const Token& token) const;
   /// The files whose PROTOs it names.
   const InputFiles& inputs() const { return inputs_; }
 

@@ -35,7 +35,7 @@ bool isKnownData(std::string_view head) {
 /// A buffer or an embedded picture.
 class BufferCheck {
  public:
-  BufferCheck(const Place& place, std::string_view list, std::size_t number)
+  BufferCheck(const SourcePlace& place, std::string_view list, std::size_t number)
       : place_(place), path_(std::string(list) + "[" + std::to_string(number) + "]"), first_(number == 0) {}
 
   void checkPicture(const json& image) const {
@@ -90,7 +90,7 @@ class BufferCheck {
     return digits.size() * 6 / 8;
   }
 
-  const Place& place_;
+  const SourcePlace& place_;
   std::string path_;
   bool first_;
 };
@@ -174,7 +174,7 @@ bool dropDracoIndices(json& root) {
   return changed;
 }
 
-void checkGltfBuffers(const json& root, const Place& place) {
+void checkGltfBuffers(const json& root, const SourcePlace& place) {
   const auto each = [&](const char* name, auto check) {
     const auto list = root.find(name);
     if (list == root.end()) return;

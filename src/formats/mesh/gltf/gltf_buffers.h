@@ -22,6 +22,6 @@ bool dropDracoIndices(nlohmann::json& root);
 
 /// Throws Error(Fault::scene) for a buffer without a length, of which only the first may be without a uri, or
 /// whose uri holds other than base64 of that length; and for a picture whose uri holds other than base64.
-void checkGltfBuffers(const nlohmann::json& root, const Place& place);
+void checkGltfBuffers(const nlohmann::json& root, const SourcePlace& place);
 
 }  // namespace trace

@@ -351,7 +351,7 @@ class GltfReader {
       if (from.number(i, 3) < 1) return clearColors_.add(1, here());
   }
 
-  Place place_;
+  SourcePlace place_;
   Messages& messages_;
   Model model_;  // parsing notes files in it
   tinygltf::Model gltf_;

@@ -80,7 +80,7 @@ std::string fileOf(const tinygltf::Image& image) { return decodedUri(image.uri);
 
 struct GltfLooks::Reader {
   const tinygltf::Model& gltf;
-  const Place place;
+  const SourcePlace place;
   Messages& messages;
   using UvSets = GltfLooks::UvSets;
   std::vector<UvSets> uvSets{};    ///< uv sets of materials
@@ -237,7 +237,7 @@ struct GltfLooks::Reader {
   }
 };
 
-GltfLooks::GltfLooks(const tinygltf::Model& gltf, const Place& place, Messages& messages)
+GltfLooks::GltfLooks(const tinygltf::Model& gltf, const SourcePlace& place, Messages& messages)
     : reader_(std::make_unique<Reader>(Reader{gltf, place, messages})) {}
 GltfLooks::~GltfLooks() = default;
 

@@ -23,7 +23,7 @@ std::string fileOf(const tinygltf::Image& image);
 /// All materials of a file. Precondition: checkGltf() found its indices sound.
 class GltfLooks {
  public:
-  GltfLooks(const tinygltf::Model& gltf, const Place& place, Messages& messages);
+  GltfLooks(const tinygltf::Model& gltf, const SourcePlace& place, Messages& messages);
   ~GltfLooks();
 
   /// In the order of the file.

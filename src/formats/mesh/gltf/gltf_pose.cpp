@@ -43,7 +43,7 @@ class Curve {
  public:
   /// `width` is how many numbers a key has. Throws Error(Fault::scene).
   Curve(const tinygltf::AnimationSampler& sampler, std::size_t width, const ReadAccessor& elements,
-        const Place& place)
+        const SourcePlace& place)
       : times_(elements(sampler.input)),
         values_(elements(sampler.output)),
         width_(width),
@@ -146,7 +146,7 @@ Affine transformOf(const tinygltf::Node& node) {
 }
 
 std::optional<std::pair<Real, Real>> animate(tinygltf::Model& gltf, SceneTime& time,
-                                             const ReadAccessor& elements, const Place& place) {
+                                             const ReadAccessor& elements, const SourcePlace& place) {
   std::optional<std::pair<Real, Real>> keys;
   if (gltf.animations.empty()) return keys;
   const tinygltf::Animation& animation = gltf.animations.front();
@@ -172,7 +172,7 @@ std::optional<std::pair<Real, Real>> animate(tinygltf::Model& gltf, SceneTime& t
 }
 
 std::vector<Affine> instancesOf(const tinygltf::Node& node, const ReadAccessor& elements,
-                                const Place& place) {
+                                const SourcePlace& place) {
   const tinygltf::Value* attributes =
       extensionValue(node.extensions, "EXT_mesh_gpu_instancing", "attributes");
   if (!attributes || !attributes->IsObject()) return {Affine{}};
@@ -196,7 +196,7 @@ std::vector<Affine> instancesOf(const tinygltf::Node& node, const ReadAccessor& 
   return all.empty() ? std::vector<Affine>{Affine{}} : all;
 }
 
-GltfPose::GltfPose(const tinygltf::Model& gltf, ReadAccessor elements, const Place& place)
+GltfPose::GltfPose(const tinygltf::Model& gltf, ReadAccessor elements, const SourcePlace& place)
     : gltf_(gltf), elements_(std::move(elements)), place_(place) {
   if (gltf.skins.empty()) return;  // nothing asks
   const std::size_t count = gltf.nodes.size();

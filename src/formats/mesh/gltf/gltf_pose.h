@@ -28,16 +28,17 @@ Affine transformOf(const tinygltf::Node& node);
 /// Before its first key and after its last it holds. Returns the seconds of these; asks for the time if there
 /// is a key. Throws Error(Fault::scene) for accessors that are not as they should be.
 std::optional<std::pair<Real, Real>> animate(tinygltf::Model& gltf, SceneTime& time,
-                                             const ReadAccessor& elements, const Place& place);
+                                             const ReadAccessor& elements, const SourcePlace& place);
 
 /// The transforms that place the node's copies in the node, by EXT_mesh_gpu_instancing; one that changes
 /// nothing without it. Throws as animate().
-std::vector<Affine> instancesOf(const tinygltf::Node& node, const ReadAccessor& elements, const Place& place);
+std::vector<Affine> instancesOf(const tinygltf::Node& node, const ReadAccessor& elements,
+                                const SourcePlace& place);
 
 /// Bends the meshes of a file whose nodes stand still.
 class GltfPose {
  public:
-  GltfPose(const tinygltf::Model& gltf, ReadAccessor elements, const Place& place);
+  GltfPose(const tinygltf::Model& gltf, ReadAccessor elements, const SourcePlace& place);
 
   /// Whether the node's mesh is another one than it would be for a node without skin and weights.
   bool bends(const tinygltf::Node& node) const;
@@ -57,7 +58,7 @@ class GltfPose {
 
   const tinygltf::Model& gltf_;
   ReadAccessor elements_;
-  const Place& place_;
+  const SourcePlace& place_;
   std::vector<Affine> worldFromNode_;          ///< world from node of each node
   std::map<int, std::vector<Affine>> joints_;  ///< skins: from the modelled mesh to the world
 };

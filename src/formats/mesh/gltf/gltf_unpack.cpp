@@ -23,7 +23,7 @@ using tinygltf::Accessor, tinygltf::BufferView, tinygltf::Primitive;
 
 class GltfUnpacker {
  public:
-  GltfUnpacker(tinygltf::Model& model, const Place& place) : model_(model), place_(place) {
+  GltfUnpacker(tinygltf::Model& model, const SourcePlace& place) : model_(model), place_(place) {
     for (const tinygltf::Buffer& buffer : model.buffers) allowance_ += kMostUses * buffer.data.size();
   }
 
@@ -218,7 +218,7 @@ class GltfUnpacker {
   }
 
   tinygltf::Model& model_;
-  const Place& place_;
+  const SourcePlace& place_;
   WarningsByKind warnings_;
   std::uint64_t allowance_ = 1 << 20;  ///< bytes of compressed data that may still be read
   std::vector<bool> lostViews_;
@@ -227,7 +227,7 @@ class GltfUnpacker {
 
 }  // namespace
 
-void unpackGltf(tinygltf::Model& model, const Place& place, Messages& messages) {
+void unpackGltf(tinygltf::Model& model, const SourcePlace& place, Messages& messages) {
   GltfUnpacker(model, place).unpack(messages);
 }
 

@@ -16,6 +16,6 @@ inline constexpr const char *kGltfDraco = "KHR_draco_mesh_compression",
 /// views name those: what reads the model sees an uncompressed one. A part that cannot be decoded costs the
 /// primitives that need it, which lose their attributes, with a warning. Throws Error(Fault::scene) if that
 /// leaves nothing, or if small parts name the same bytes again and again.
-void unpackGltf(tinygltf::Model& model, const Place& place, Messages& messages);
+void unpackGltf(tinygltf::Model& model, const SourcePlace& place, Messages& messages);
 
 }  // namespace trace

@@ -12,8 +12,8 @@
 
 namespace trace {
 
-void readCamera(const tinygltf::Camera& from, const Affine& worldFromNode, const Place& place, Model& model,
-                Messages& messages) {
+void readCamera(const tinygltf::Camera& from, const Affine& worldFromNode, const SourcePlace& place,
+                Model& model, Messages& messages) {
   if (model.camera) return;
   const bool parallel = from.type == "orthographic";
   const double fov = parallel ? 45 : from.perspective.yfov * 180 / kPi;
@@ -36,8 +36,8 @@ void readCamera(const tinygltf::Camera& from, const Affine& worldFromNode, const
   model.choices.push_back({"view-height", toText(std::abs(2 * from.orthographic.ymag)), place});
 }
 
-void readLight(const tinygltf::Light& from, const Affine& worldFromNode, const Place& place, Model& model,
-               Messages& messages) {
+void readLight(const tinygltf::Light& from, const Affine& worldFromNode, const SourcePlace& place,
+               Model& model, Messages& messages) {
   const Color color = colorOf(from.color, Color(1)) * (from.intensity / kPi);
   const Vec3 position = worldFromNode * Vec3{}, direction = linear(worldFromNode, {0, 0, -1});
   if (!isFinite(color) || !isFinite(position) || !isFinite(direction) || direction == Vec3{})

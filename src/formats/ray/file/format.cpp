@@ -151,7 +151,7 @@ class Reader {
 
   void warnOfEmptiness() {
     if (scene_.objects.empty() && scene_.uses.empty() && findings_.errors() == 0)
-      messages_.warn(Place{scene_.file, 0, 0, {}}, "no object: the picture will be empty");
+      messages_.warn(SourcePlace{scene_.file, 0, 0, {}}, "no object: the picture will be empty");
   }
 
   void camera(const Item& call) {

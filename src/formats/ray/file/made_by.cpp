@@ -14,12 +14,12 @@ namespace {
 
 using namespace rayfile;
 
-bool isAt(const Place& place, const Place& other) {
+bool isAt(const SourcePlace& place, const SourcePlace& other) {
   return place.line == other.line && place.column == other.column && place.file == other.file;
 }
 
 /// The nodes that the text at a place became, in the order of the objects.
-std::vector<std::uint32_t> nodesAt(const Syntax& syntax, const Place& place) {
+std::vector<std::uint32_t> nodesAt(const Syntax& syntax, const SourcePlace& place) {
   std::vector<std::uint32_t> nodes;
   std::optional<std::uint32_t> offset;
   for (std::uint32_t i = 0; i < syntax.nodes().size(); ++i) {
@@ -35,7 +35,7 @@ std::vector<std::uint32_t> nodesAt(const Syntax& syntax, const Place& place) {
 
 std::string callsThatMade(const Scene& scene, std::size_t object, Real time) {
   if (scene.format != "ray" || !scene.uses.empty() || !isOrdinaryFile(scene.file)) return "";
-  const Place& place = scene.objects[object].place;
+  const SourcePlace& place = scene.objects[object].place;
   std::size_t before = 0, all = 0;
   for (std::size_t i = 0; i < scene.objects.size(); ++i)
     if (isAt(scene.objects[i].place, place)) {

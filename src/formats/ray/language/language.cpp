@@ -86,7 +86,7 @@ class Expander : Evaluator {
     const auto most = std::max_element(made.begin(), made.end(), [](const auto& a, const auto& b) {
       return a.second.first < b.second.first;
     });
-    Place place{syntax_.file(), 0, 0, {}};
+    SourcePlace place{syntax_.file(), 0, 0, {}};
     std::string hint;
     if (most != made.end()) {
       place = syntax_.place(most->first);

@@ -64,7 +64,7 @@ class Materials {
   TextureReader textures_;
   struct Named {
     NotedMaterial material;
-    Place place;
+    SourcePlace place;
     bool used = false;
   };
   /// An object, or another material, has it.

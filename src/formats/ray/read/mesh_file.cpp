@@ -106,7 +106,7 @@ const Model* MeshFiles::model(const Item& field, const std::string& name) {
 
 /// Does to each mesh what its block asks for.
 void MeshFiles::change(std::vector<Object>& objects, bool generate, const MeshOperations& operations,
-                       const Place& place) {
+                       const SourcePlace& place) {
   std::map<const MeshData*, Mesh> changed;
   for (Object& object : objects) {
     const auto* mesh = object.shape.as<Mesh>();

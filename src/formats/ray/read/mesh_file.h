@@ -32,7 +32,7 @@ class MeshFiles {
  private:
   const Model* model(const Item& field, const std::string& name);
   static void change(std::vector<Object>& objects, bool generate, const MeshOperations& operations,
-                     const Place& place);
+                     const SourcePlace& place);
 
   Findings& findings_;
   Materials& materials_;

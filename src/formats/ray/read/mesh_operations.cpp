@@ -41,7 +41,7 @@ bool MeshOperations::read(Findings& findings, const Item& field) {
   return true;
 }
 
-MeshData MeshOperations::apply(const MeshData& mesh, const Place& place,
+MeshData MeshOperations::apply(const MeshData& mesh, const SourcePlace& place,
                                const std::vector<Crease>& creases) const {
   // A polygon of n triangles becomes 2 (n + 2) at the first level of Catmull and Clark's.
   const std::size_t extra = catmullClark && subdivide > 0 ? 3 : 1;

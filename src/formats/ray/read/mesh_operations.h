@@ -38,7 +38,8 @@ struct MeshOperations {
 
   /// Subdivides with these creases, then makes normals, then uv. Throws Error(Fault::limit) at `place` if the
   /// mesh would become too large.
-  MeshData apply(const MeshData& mesh, const Place& place, const std::vector<Crease>& creases = {}) const;
+  MeshData apply(const MeshData& mesh, const SourcePlace& place,
+                 const std::vector<Crease>& creases = {}) const;
 };
 
 }  // namespace trace::rayfile

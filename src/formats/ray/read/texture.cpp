@@ -38,7 +38,7 @@ std::vector<std::string_view> textureKinds() {
   return kinds;
 }
 
-Texture mappedPicture(std::string file, Place place) {
+Texture mappedPicture(std::string file, SourcePlace place) {
   ImageMap map;
   map.file = {std::move(file), nullptr, std::move(place)};
   map.wrapU = map.wrapV = Wrap::clamp;

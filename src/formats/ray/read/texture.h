@@ -23,7 +23,7 @@ namespace trace::rayfile {
 inline constexpr std::string_view kTexture = "texture";
 
 /// The file as a picture on a surface, as the courses' programs look it up.
-Texture mappedPicture(std::string file, Place place = {});
+Texture mappedPicture(std::string file, SourcePlace place = {});
 
 /// Keywords of all kinds of textures.
 std::vector<std::string_view> textureKinds();

@@ -142,7 +142,7 @@ void Findings::take(std::span<const Syntax::Mistake> mistakes) {
 /// Errors of the rest of a line of which a part was left out.
 void Findings::dropFollowing() {
   const auto line = [&](const Failure& failure) {
-    const Place place = syntax_.shortPlace(failure.offset);
+    const SourcePlace place = syntax_.shortPlace(failure.offset);
     return std::pair(place.file, place.line);
   };
   const Failure* left = nullptr;
@@ -299,7 +299,7 @@ void RepeatedFields::note(const Item& field) {
 /// exponent above 1. Exponents from 0 to 1 would make highlights uselessly wide.
 void Findings::finishDialect() {
   if (isOfKind() || later_ || largeShininess_) return;
-  const std::optional<Place>& sign = of2001_ ? of2001_ : smallShininess_;
+  const std::optional<SourcePlace>& sign = of2001_ ? of2001_ : smallShininess_;
   if (!sign) return;
   for (const Choice& choice : scene_.choices)
     if (choice.option == "like") return;

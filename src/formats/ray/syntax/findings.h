@@ -72,7 +72,7 @@ class Findings {
 
  private:
   struct Warning {
-    Place place;
+    SourcePlace place;
     std::string what, hint;
     std::size_t times = 0;
     bool sums = false;
@@ -99,7 +99,7 @@ class Findings {
   std::vector<Warning> warnings_;
   std::map<std::string, std::size_t, std::less<>> kinds_;
 
-  std::optional<Place> of2001_, smallShininess_;
+  std::optional<SourcePlace> of2001_, smallShininess_;
   std::size_t errors_ = 0;
   bool later_ = false;  ///< than 2001
   bool largeShininess_ = false;

@@ -215,7 +215,7 @@ std::string tidied(const std::string& file, std::string_view text) {
   std::string result = rayfile::Layout(std::move(tokens)).text();
   const rayfile::Syntax after(file, result);
   if (!rayfile::sameNodes(before, after))
-    throw Error(Fault::scene, Place{.file = file},
+    throw Error(Fault::scene, SourcePlace{.file = file},
                 "the tidied text would mean something else: this is a mistake of Trace",
                 "please report it; the file stays as it is");
   return result;

@@ -94,7 +94,7 @@ std::optional<Unsayable> unsayableIn(const Scene& scene) {
 
 void warnOfUnsayable(const Scene& scene, const std::string& file, Messages& messages) {
   if (const std::optional<Unsayable> name = found(false, scene, lookForNames))
-    messages.warn(Place{.file = file}, name->why() + ": names are written as near as can be");
+    messages.warn(SourcePlace{.file = file}, name->why() + ": names are written as near as can be");
 }
 
 }  // namespace trace

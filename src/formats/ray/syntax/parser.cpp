@@ -677,7 +677,7 @@ class Parser {
          hintAt(opened) + " is not closed yet");
   }
   std::string hintAt(std::size_t opened) const {
-    const Place place = syntax_.place(base_ + opened);
+    const SourcePlace place = syntax_.place(base_ + opened);
     return "the " + shown(source_[opened]) + " at line " + std::to_string(place.line) + ", column " +
            std::to_string(place.column);
   }

@@ -11,7 +11,7 @@ namespace trace {
 
 struct RayRemarks {
   struct Angle {
-    Place place;  ///< place of the number, with its line
+    SourcePlace place;  ///< place of the number, with its line
     double value = 0;
   };
   /// Angles of rotate() beyond a whole turn that are whole or half numbers, as degrees are and radians hardly
@@ -19,12 +19,12 @@ struct RayRemarks {
   std::vector<Angle> degrees;
   /// A name that the file defines and never uses. In a file that includes others, of parameters alone.
   struct Unused {
-    Place place;
+    SourcePlace place;
     std::string name;
     bool isParameter = false;
   };
   std::vector<Unused> unused;
-  Place camera;  ///< position of the last camera, which counts; only the file if there is none
+  SourcePlace camera;  ///< position of the last camera, which counts; only the file if there is none
 };
 
 /// Throws Error(Fault::scene) where the syntax is wrong.

@@ -38,7 +38,8 @@ std::uint32_t Syntax::include(std::string file, std::string source) {
 
 void Syntax::parse(Source& source) {
   if (source.base + source.text.size() >= std::numeric_limits<std::uint32_t>::max())
-    throw Error(Fault::limit, Place{source.file, 0, 0, {}}, "expected a scene of less than 4 GiB of text");
+    throw Error(Fault::limit, SourcePlace{source.file, 0, 0, {}},
+                "expected a scene of less than 4 GiB of text");
   for (std::size_t newline = source.text.find('\n'); newline != kNone;
        newline = source.text.find('\n', newline + 1))
     source.lineStarts.push_back(static_cast<std::uint32_t>(newline + 1));
@@ -99,14 +100,14 @@ void Syntax::throwMistakes() const {
   throw Error(Fault::scene, std::move(messages));
 }
 
-Place Syntax::place(std::size_t offset) const { return place(offset, kNone); }
+SourcePlace Syntax::place(std::size_t offset) const { return place(offset, kNone); }
 
-Place Syntax::shortPlace(std::size_t offset) const {
+SourcePlace Syntax::shortPlace(std::size_t offset) const {
   constexpr std::size_t kLongLine = 200;
   return place(offset, kLongLine);
 }
 
-Place Syntax::place(std::size_t offset, std::size_t longestLine) const {
+SourcePlace Syntax::place(std::size_t offset, std::size_t longestLine) const {
   const Source& source = sourceOf(offset);
   const std::size_t at = offset - source.base;
   const Line on = line(source, at);

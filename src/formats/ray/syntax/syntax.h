@@ -182,14 +182,14 @@ class Syntax {
   std::string chain(std::uint32_t node) const;
 
   /// With the whole line of text.
-  Place place(std::size_t offset) const;
+  SourcePlace place(std::size_t offset) const;
   /// The offset of a place in this file, which place() made. Precondition: it is one.
-  std::size_t offsetOf(const Place& place) const {
+  std::size_t offsetOf(const SourcePlace& place) const {
     return sources_.front().lineStarts[static_cast<std::size_t>(place.line) - 1] +
            static_cast<std::size_t>(place.column) - 1;
   }
   /// Without the text of a long line, to be kept in numbers.
-  Place shortPlace(std::size_t offset) const;
+  SourcePlace shortPlace(std::size_t offset) const;
 
  private:
   friend class Parser;
@@ -210,7 +210,7 @@ class Syntax {
   }
   const Source& includedSource(std::size_t offset) const;
   static Line line(const Source& source, std::size_t at);
-  Place place(std::size_t offset, std::size_t longestLine) const;
+  SourcePlace place(std::size_t offset, std::size_t longestLine) const;
 
   std::deque<Source> sources_;  // the file itself, then what it includes
   std::vector<Node> nodes_;

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr int kMostRounds = 4;
 
-bool samePlace(const Place& a, const Place& b) {
+bool samePlace(const SourcePlace& a, const SourcePlace& b) {
   return a.file == b.file && a.line == b.line && a.column == b.column && a.line > 0;
 }
 
@@ -243,7 +243,7 @@ class Patch {
     for (const Object& object : edited.objects) addMaterials(object.shape, object.material, used);
     for (std::size_t i = known; i < edited.materials.size(); ++i)
       if (!used.contains(static_cast<std::uint32_t>(i)))
-        messages_.warn(Place{.file = read_.file},
+        messages_.warn(SourcePlace{.file = read_.file},
                        nameOf(edited.materials[i], i) + " is not kept: no object has it");
   }
 
@@ -326,7 +326,7 @@ Rewritten rewriteRay(const SceneText& read, const Scene& edited, const std::stri
     return {{{file, rayfile::moved(*text, read.file, file)}}, lost.all().empty()};
   }
   messages.warn(
-      Place{.file = file},
+      SourcePlace{.file = file},
       "the text could not be kept: the scene is rewritten, without its comments and nesting" +
           std::string(changesWithTime(read.file, *read.bytes) ? " and as it is at this moment" : ""),
       "undo, or edit the file itself");

@@ -41,7 +41,7 @@ constexpr std::string_view kRead[] = {kGltfLights,
 
 class GltfCheck : private GltfMaterialCheck {
  public:
-  GltfCheck(const json& file, const Place& place, Messages& messages)
+  GltfCheck(const json& file, const SourcePlace& place, Messages& messages)
       : GltfMaterialCheck(file, place), messages_(messages) {}
 
   void check() {
@@ -319,7 +319,7 @@ class GltfCheck : private GltfMaterialCheck {
 
 }  // namespace
 
-void checkGltf(const json& root, const Place& place, Messages& messages) {
+void checkGltf(const json& root, const SourcePlace& place, Messages& messages) {
   GltfCheck(root, place, messages).check();
 }
 

@@ -11,6 +11,6 @@ namespace trace {
 /// Throws Error(Fault::scene) where the specification forbids to continue: another version, an extension that
 /// is required and not read, an index of something that is not there, a value of another type. Warns of
 /// values out of their range, of properties that are not known, and of what is not read.
-void checkGltf(const nlohmann::json& json, const Place& place, Messages& messages);
+void checkGltf(const nlohmann::json& json, const SourcePlace& place, Messages& messages);
 
 }  // namespace trace

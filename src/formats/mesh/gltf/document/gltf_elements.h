@@ -19,7 +19,7 @@ namespace trace {
 /// The elements of an accessor, checked to lie inside their buffer.
 class GltfElements {
  public:
-  GltfElements(const tinygltf::Model& model, int index, const Place& place) {
+  GltfElements(const tinygltf::Model& model, int index, const SourcePlace& place) {
     const auto fail = [&](const char* what) {
       throw Error(Fault::scene, place, "accessor " + std::to_string(index) + ": " + what);
     };

@@ -34,7 +34,7 @@ std::uint32_t littleInt(std::string_view bytes, std::size_t at) {
 // --- the container ----------------------------------------------------------------------------------
 
 /// The JSON of the file: all of it, or the first chunk of a binary one. Throws Error if chunks do not fit.
-std::string_view jsonOf(const Place& place, std::string_view bytes) {
+std::string_view jsonOf(const SourcePlace& place, std::string_view bytes) {
   if (!bytes.starts_with(kMagic)) return bytes;
   const auto fail = [&](const char* what) { throw Error(Fault::scene, place, what); };
   if (bytes.size() < 20) fail("expected a glTF header of 20 bytes, found the end of the file");
@@ -51,7 +51,7 @@ std::string_view jsonOf(const Place& place, std::string_view bytes) {
 struct GltfFiles {
   std::set<std::string> read;
   InputFiles& inputs;
-  const Place& place;
+  const SourcePlace& place;
   Messages& messages;
 
   static bool exists(const std::string& path, void* self) {
@@ -97,7 +97,7 @@ bool isBinaryGltf(std::string_view bytes) { return bytes.starts_with(kMagic); }
 namespace {
 
 tinygltf::Model checkedGltf(const std::string& file, std::string_view bytes, const nlohmann::json& root,
-                            const Place& place, InputFiles& inputs, Messages& messages) {
+                            const SourcePlace& place, InputFiles& inputs, Messages& messages) {
   checkGltf(root, place, messages);
   checkGltfBuffers(root, place);
   checkGltfTree(root, place);
@@ -143,7 +143,7 @@ tinygltf::Model checkedGltf(const std::string& file, std::string_view bytes, con
 
 }  // namespace
 
-tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, const Place& place,
+tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, const SourcePlace& place,
                            InputFiles& inputs, Messages& messages) {
   nlohmann::json json = parseGltfJson(place, bytes, jsonOf(place, bytes));
   std::string changed;

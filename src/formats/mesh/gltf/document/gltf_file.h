@@ -18,7 +18,7 @@ bool isBinaryGltf(std::string_view bytes);
 
 /// Reads the file; findings of checkGltf() become messages. Files that it names are read, and noted in
 /// `inputs`. Throws Error(Fault::scene). Every index and range of accessors and views has yet to be checked.
-tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, const Place& place,
+tinygltf::Model parsedGltf(const std::string& file, std::string_view bytes, const SourcePlace& place,
                            InputFiles& inputs, Messages& messages);
 
 }  // namespace trace

@@ -37,7 +37,7 @@ class GltfRules {
   using json = nlohmann::json;
   using Part = GltfPart;
 
-  GltfRules(const json& file, const Place& place) : root{file, ""}, place_(place) {}
+  GltfRules(const json& file, const SourcePlace& place) : root{file, ""}, place_(place) {}
 
   [[noreturn]] void fail(const std::string& what, std::string hint = {}) const {
     throw Error(Fault::scene, place_, what, std::move(hint));
@@ -165,7 +165,7 @@ class GltfRules {
   }
 
  private:
-  const Place& place_;
+  const SourcePlace& place_;
 };
 
 }  // namespace trace

@@ -7,7 +7,7 @@
 namespace trace {
 namespace {
 
-[[noreturn]] void fail(const Place& place, std::size_t node, std::size_t parent) {
+[[noreturn]] void fail(const SourcePlace& place, std::size_t node, std::size_t parent) {
   const auto name = [](std::size_t number) { return "nodes[" + std::to_string(number) + "]"; };
   throw Error(Fault::scene, place,
               name(node) + ": " +
@@ -18,7 +18,7 @@ namespace {
 
 }  // namespace
 
-void checkGltfTree(const nlohmann::json& root, const Place& place) {
+void checkGltfTree(const nlohmann::json& root, const SourcePlace& place) {
   const auto nodes = root.find("nodes");
   if (nodes == root.end()) return;
   enum class Seen : char { no, open, done };

@@ -9,6 +9,6 @@ namespace trace {
 
 /// Throws Error(Fault::scene) where a node stands below itself. Precondition: checkGltf() found its indices
 /// sound.
-void checkGltfTree(const nlohmann::json& root, const Place& place);
+void checkGltfTree(const nlohmann::json& root, const SourcePlace& place);
 
 }  // namespace trace

@@ -68,7 +68,7 @@ json linearColor(const json& color, std::size_t count) {
 
 class Upgrade {
  public:
-  Upgrade(const json& root, const Place& place) : root_(root), place_(place) {}
+  Upgrade(const json& root, const SourcePlace& place) : root_(root), place_(place) {}
 
   json whole2() {
     to_["asset"] = {{"version", "2.0"}};
@@ -295,7 +295,7 @@ class Upgrade {
   }
 
   const json& root_;
-  const Place& place_;
+  const SourcePlace& place_;
   json to_ = json::object();
   json more_ = json::array();  ///< nodes that the file does not have, behind its own
   std::vector<std::size_t> orderOfBuffers_;
@@ -322,7 +322,7 @@ bool isGltf1(const json& root) {
   return one && (member(root, "accessors").is_object() || member(root, "nodes").is_object());
 }
 
-json upgradedGltf(const json& root, const Place& place) { return Upgrade(root, place).whole2(); }
+json upgradedGltf(const json& root, const SourcePlace& place) { return Upgrade(root, place).whole2(); }
 
 std::string upgradedGltfFile(const json& upgraded, std::string_view bytes) {
   constexpr std::size_t kHeader = 20;
