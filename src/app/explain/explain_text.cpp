@@ -208,12 +208,13 @@ class TreeText {
         const ChanceTerm& chance = *term.chance;
         words += "\n" + margin_ + "    random, density " + digits(chance.density);
         if (chance.other > 0)
-          words += ", the other strategy " + digits(chance.other) + ": counts " + digits(chance.share);
+          words +=
+              ", that of the other strategy " + digits(chance.other) + ": MIS weight " + digits(chance.share);
       }
       if (term.connection)
         words += "\n" + margin_ + "    s = " + std::to_string(term.connection->light) +
                  " from the light, t = " + std::to_string(term.connection->camera) +
-                 " from the camera: counts " + digits(term.connection->share);
+                 " from the camera: MIS weight " + digits(term.connection->share);
       if (term.scattered) words += "\n" + margin_ + "    light of " + printable(named.light);
       if (term.medium) words += "\n" + margin_ + "    " + medium(*term.medium, *named.medium);
       if (term.body)
@@ -339,7 +340,7 @@ std::string waysText(const RayTree& tree, const Scene& scene) {
     places = way.places();
     const std::string counts = way.camera == 1
                                    ? "  "
-                                   : "  counts " + digits(way.share) + ", brings " + digits(way.brings) +
+                                   : "  MIS weight " + digits(way.share) + ", brings " + digits(way.brings) +
                                          ", alone " + digits(way.alone()) + "; ";
     lines += "    s = " + std::to_string(way.light) + ", t = " + std::to_string(way.camera) + counts + "#" +
              std::to_string(way.between < 0 ? way.end : way.between) + " " +

@@ -175,9 +175,9 @@ std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, 
     if (!term.light) {
       row(kind, text(term.factor) + "  x  " + text(term.value));
       if (term.connection)
-        row("  s, t, counts", std::to_string(term.connection->light) + ", " +
-                                  std::to_string(term.connection->camera) + ", " +
-                                  text(term.connection->share));
+        row("  s, t, MIS weight", std::to_string(term.connection->light) + ", " +
+                                      std::to_string(term.connection->camera) + ", " +
+                                      text(term.connection->share));
       if (term.photons)
         row("  photons", counted(term.photons->count, "photon") + " within " + text(term.photons->radius));
       continue;
