@@ -284,8 +284,9 @@ TEST_F(Diff, GradeSaysWhatIsWrongWithEachScene) {
     picture(std::string("ref/") + name + ".png", 1);
   const Run r = run({"grade", "scenes", "--reference", "ref", "--render", "-w", "6", "--height", "4"});
   EXPECT_EQ(r.code, 6) << r.err;
-  EXPECT_TRUE(
-      contains(r.out, "\ngarbled.png: cannot be read: scenes/garbled.ray: error: named .ray, but holds "));
+  EXPECT_TRUE(contains(
+      r.out,
+      "\ngarbled.png: cannot be read: scenes/garbled.ray:1:1: error: expected Trace 1 on the first line"));
   EXPECT_TRUE(contains(r.out, "\nbroken.png: cannot be read: scenes/broken.ray:2:"));
   EXPECT_TRUE(contains(r.out, "\npipe.png: \"scenes/pipe.ray\" is not a file\n"));
   EXPECT_TRUE(contains(r.out, "\nzero.png: \"scenes/zero.ray\" is not a file\n"));

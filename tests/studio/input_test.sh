@@ -20,8 +20,8 @@ step wait 'set width 100' wait 'pixel 50 50' rays pin rays 'panel Scene' 'select
 step                                       # 1: a number was typed into "turn", not yet finished
 step                                       # 2: it was
 step                                       # 3: another was taken back with Esc
-step 'panel Controls' 'set depth 3'        # 4: the controls
-step                                       # 5: depth was reset with x
+step 'panel Controls' 'set moments 3'      # 4: the controls
+step                                       # 5: moments was reset with x
 step                                       # 6: the region was typed
 step                                       # 7: a menu is open
 step                                       # 8: Ctrl+Z while it was open
@@ -55,11 +55,11 @@ is undo 'turn ball' "Esc takes it back"
 next
 
 # Options: x resets; a region; what is typed replaces all of a field after Ctrl+A, however slow the window is.
-is 'chosen depth' 3 "the script sets it"
-goTo reset depth
+is 'chosen moments' 3 "the script sets it"
+goTo reset moments
 xdotool click 1
 next
-is 'chosen depth' 5 "x goes back to what the file says"
+is 'chosen moments' 16 "x goes back to what the file says"
 goTo option region
 typeRegion() { xdotool click 1; xdotool type --delay 5 '9 9'; xdotool key ctrl+a; xdotool type --delay 5 '1, 2, 30 40'; }
 slowly typeRegion

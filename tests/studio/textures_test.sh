@@ -50,14 +50,14 @@ grep -q 'field diffuse a b idle' "$now" || fail "nothing says that b counts no l
 seek field diffuse a seed number 0
 double -99999999999 field diffuse a seed number 0
 is undo "${material}diffuse brick a noise seed" "the seed is the nearest that there is"
-goTo list # else the next click would be the third
+sleep 0.5 # else the next click would be the third, on the same place within 0.3 s
 next
 double -99999999999 field diffuse a seed number 0 # changes nothing, so that no render is logged after it
 says "${material}diffuse brick a noise seed: expected -1000000000 to 1000000000, found -99999999999"
 seek field diffuse mortar number 0
 double abc field diffuse mortar number 0
 says "${material}diffuse brick mortar: expected 0 or more, found \"abc\"; not taken"
-goTo list # else the next click would be the third
+sleep 0.5 # else the next click would be the third, on the same place within 0.3 s
 next
 double 0,9 field diffuse mortar number 0
 says 'found "0,9"; not taken; a point stands before decimals: 0.9'
