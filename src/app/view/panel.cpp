@@ -76,6 +76,17 @@ bool Panel::clip(Point2& p, Point2& q) const {
   return true;
 }
 
+Settings plainView(Settings settings) {
+  const Settings defaults;
+  settings.cameraAxes = CameraAxes::orthonormal;
+  settings.projection = defaults.projection;
+  settings.shiftX = settings.shiftY = 0;
+  settings.distortion = 0;
+  settings.stereo = Stereo::off;
+  settings.aperture = 0;
+  return settings;
+}
+
 DrawnPicture sketch(const World& world, const std::vector<std::uint32_t>& walls, const Vec3& inside,
                     const Point2& at, double width, double height) {
   Picture picture(static_cast<int>(width), static_cast<int>(height));

@@ -40,6 +40,9 @@ class Panel {
   Affine toPlane_;
 };
 
+/// The settings for a view of the scene from elsewhere: by a camera without a lens, that sees lines as lines.
+Settings plainView(Settings settings);
+
 /// The surfaces as the world's camera sees them, shaded by how much they face the eye, without the light of
 /// the scene: of rooms with few samples by `path` there would be nothing but noise. Walls that hide the place
 /// `inside` are left out. White where nothing is.

@@ -142,14 +142,7 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
 
   Scene sideScene = scene;
   sideScene.camera = sideCamera(world.camera(), scene.camera.updir, rays.segments(), kPanelWidth / height);
-  Settings sideSettings = settings;
-  sideSettings.cameraAxes = CameraAxes::orthonormal;
-  const Settings defaults;
-  sideSettings.projection = defaults.projection;
-  sideSettings.shiftX = sideSettings.shiftY = 0;
-  sideSettings.distortion = 0;
-  sideSettings.stereo = Stereo::off;
-  sideSettings.aperture = 0;
+  const Settings sideSettings = plainView(settings);
   Messages ignored;  // said before, of the same scene
   const Compiled here{scene, settings, world};
   const World sideWorld = compile(sideScene, sideSettings, ignored, &here);

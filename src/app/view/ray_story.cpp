@@ -38,17 +38,10 @@ DrawnPicture swatch(const Point2& at, const Color& color) {
 World worldFrom(const TracedPixel& pixel, const Camera& view) {
   Scene scene = pixel.scene();
   scene.camera = view;
-  Settings settings = pixel.session->settings();
-  const Settings defaults;
-  settings.cameraAxes = CameraAxes::orthonormal;
-  settings.projection = defaults.projection;
-  settings.shiftX = settings.shiftY = 0;
-  settings.distortion = 0;
-  settings.stereo = Stereo::off;
-  settings.aperture = 0;
+  const Settings& settings = pixel.session->settings();
   Messages ignored;  // said before, of the same scene
-  const Compiled here{pixel.scene(), pixel.session->settings(), pixel.session->worldOf(pixel.tree())};
-  return compile(scene, settings, ignored, &here);
+  const Compiled here{pixel.scene(), settings, pixel.session->worldOf(pixel.tree())};
+  return compile(scene, plainView(settings), ignored, &here);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // ray farm SCENE --parts N: a render by a cluster with Slurm. It writes the jobs (job_folder.h), submits
 // those that are missing as a job array, submits lost ones again, and merges the parts when all are there.
 //
-// What there is to know lies in the folder and in Slurm's queue, where the array has a name of its own. So
-// another process, on any machine that sees the folder, continues where this one ended.
+// All state is in the folder and in Slurm's queue, where the array has a name of its own: another process, on
+// any machine that sees the folder, continues where this one ended.
 #include <algorithm>
 #include <charconv>
 #include <chrono>

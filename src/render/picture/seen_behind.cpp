@@ -6,20 +6,21 @@ namespace trace {
 
 std::optional<SeenBehind> seenBehind(Tracer& tracer, const CameraRay& camera, const Sampler& sampler) {
   std::optional<SeenBehind> seen;
-  CameraRay at = camera;
   Sampler numbers = sampler.branch(Branch::hole);
-  for (int depth = 0; at.hit && depth < tracer.settings().depth; ++depth) {
+  for (int depth = 0; depth < tracer.settings().depth; ++depth) {
+    const CameraRay& at = seen ? seen->last : camera;
+    if (!at.hit) break;
     const Interaction place(tracer, at.ray, *at.hit, at.differentials, at.inside, 0.5);
     const auto next = isGlossy(place.bsdf()) ? std::nullopt : strongestOf(place);
+    if (!next) break;
     const Color spread = scatter(place.bsdf(), place.frame, place.normal, -at.ray.direction).diffuse;
-    if (!next || maxComponent(spread) > maxComponent(next->weight)) break;
-    const Real way = at.hit->t * length(at.ray.direction);
-    CameraRay last{at.hit->leave(next->direction), {}, next->in(at.inside)};
+    if (maxComponent(spread) > maxComponent(next->weight)) break;
+    SeenBehind further{{at.hit->leave(next->direction), {}, next->in(at.inside)},
+                       seen ? seen->passes * next->weight : next->weight,
+                       (seen ? seen->distance : 0) + at.hit->t * length(at.ray.direction)};
+    CameraRay& last = further.last;
     last.hit = tracer.cast(last.ray, next->kind, last.inside, tracer.chance(numbers));
-    const Color passes = seen ? seen->passes : Color(1);
-    const Real distance = seen ? seen->distance : 0;
-    at = last;
-    seen = {std::move(last), passes * next->weight, distance + way};
+    seen = std::move(further);
   }
   return seen;
 }
