@@ -9,6 +9,7 @@
 #include "studio/dialogs.h"
 #include "studio/panels.h"
 #include "studio/stage.h"
+#include "studio/widgets/drag.h"
 #include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 #include "studio/widgets/number_field.h"
@@ -170,7 +171,7 @@ void splitter(const char* name, ImVec2 position, ImVec2 size, const Shared& dock
                                                                    : ImGuiCol_MenuBarBg);
   ImGui::GetWindowDrawList()->AddRectFilled(position, {position.x + size.x, position.y + size.y}, colour);
   if (ImGui::IsItemActive()) {
-    const ImVec2 moved = ImGui::GetIO().MouseDelta;
+    const ImVec2 moved = dragged(ImGuiMouseButton_Left);
     const double by = dock.sign * (tall ? moved.x : moved.y);
     if (by != 0)
       dock.share = std::clamp<double>((dock.pixels + by) / dock.whole, kLeast,

@@ -79,7 +79,8 @@ goTo field specular file text
 typeName leaf.ppm
 is undo "${material}specular image file" "a file that is there is"
 # A bar moves no other one, and the list has one of its own.
-drag() { goTo "${@:3}"; xdotool mousedown 1; next; xdotool mousemove_relative -- "$1" "$2"; next; xdotool mouseup 1; next; }
+press() { goTo "$@"; xdotool mousedown 1; }
+drag() { slowly press "${@:3}"; next; xdotool mousemove_relative -- "$1" "$2"; next; xdotool mouseup 1; next; }
 edge() { line "box" | grep -- " $*\$" | cut -d' ' -f"$edge"; }
 edge=1 right="$(edge right bar)" left="$(edge left bar)"
 drag 600 0 left bar

@@ -10,6 +10,7 @@
 #include "app/view/picture_views.h"
 #include "studio/panels.h"
 #include "studio/picture/picture_parts.h"
+#include "studio/widgets/drag.h"
 #include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 
@@ -250,10 +251,13 @@ void zoomAndPan(PictureView& view, const FrameArea& frame) {
     view.centreY = y + (view.centreY - y) * keep;
     view.fit = false;
   }
-  if (ImGui::IsMouseDragging(1, 0) || ImGui::IsMouseDragging(2, 0)) {
-    view.centreX -= io.MouseDelta.x / frame.size.x;
-    view.centreY -= io.MouseDelta.y / frame.size.y;
-    if (io.MouseDelta.x != 0 || io.MouseDelta.y != 0) view.fit = false;
+  for (const ImGuiMouseButton button : {ImGuiMouseButton_Right, ImGuiMouseButton_Middle}) {
+    if (!ImGui::IsMouseDragging(button, 0)) continue;
+    const ImVec2 moved = dragged(button);
+    view.centreX -= moved.x / frame.size.x;
+    view.centreY -= moved.y / frame.size.y;
+    if (moved.x != 0 || moved.y != 0) view.fit = false;
+    break;
   }
 }
 

@@ -18,6 +18,7 @@
 #include "studio/scene/additions_popup.h"
 #include "studio/scene/object_editor.h"
 #include "studio/scene/selection.h"
+#include "studio/widgets/drag.h"
 #include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 #include "studio/widgets/texture_editor.h"
@@ -241,7 +242,8 @@ void listBar(float& share, float whole) {
   const float middle = std::round((at.y + end.y) / 2);
   ImGui::GetWindowDrawList()->AddRectFilled({at.x, middle - 1}, {end.x, middle + 1}, colour);
   if (active)
-    share = std::clamp(share + ImGui::GetIO().MouseDelta.y / whole, Layout::kLeastList, Layout::kMostList);
+    share =
+        std::clamp(share + dragged(ImGuiMouseButton_Left).y / whole, Layout::kLeastList, Layout::kMostList);
 }
 
 /// Names of files count from the scene's folder.

@@ -1,0 +1,14 @@
+// Dragging with the mouse.
+#pragma once
+
+#include <imgui.h>
+
+namespace trace::studio {
+
+/// How far the mouse has dragged in this frame, that button being down. A frame that takes long holds the way
+/// to the place of the press as well, which is no part of the drag.
+inline ImVec2 dragged(ImGuiMouseButton button) {
+  return ImGui::IsMouseClicked(button) ? ImVec2{0, 0} : ImGui::GetIO().MouseDelta;
+}
+
+}  // namespace trace::studio
