@@ -153,8 +153,10 @@ class Stage:
 
     @staticmethod
     def source(path: Path, text: str) -> str:
-        picture, up = STAGE / f"docs/gallery/{path.stem}.png", "../" * (len(path.parts) - 1)
-        shown = f"![{path.stem}]({up}docs/gallery/{path.stem}.png)\n\n" if path.parts[0] == "scenes" and picture.exists() else ""
+        shown = ""
+        for name in (f"docs/gallery/{path.stem}.jpg", f"docs/gallery/{path.stem}.png"):
+            if path.parts[0] == "scenes" and (STAGE / name).exists():
+                shown = f"![{path.stem}]({'../' * (len(path.parts) - 1)}{name})\n\n"
         return f"{shown}[The file]({path.name}) as it is.\n\n```{LANGUAGES.get(path.suffix, 'text')}\n{text.rstrip()}\n```"
 
     def folder(self, path: Path):

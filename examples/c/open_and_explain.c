@@ -5,12 +5,16 @@
 
 int main(int count, char** arguments) {
   const double green[3] = {0.1, 0.7, 0.2};
-  traceray_scene* scene = count == 3 ? traceray_open(arguments[1]) : NULL;
+  if (count != 3) {
+    fprintf(stderr, "Usage: open_and_explain SCENE PICTURE\n");
+    return 2;
+  }
+  traceray_scene* scene = traceray_open(arguments[1]);
   traceray_choose(scene, "width", "64");
   traceray_choose(scene, "spp", "1");
   traceray_set_numbers(scene, "ball.material", "diffuse", green, 3);
   traceray_render* picture = traceray_render_scene(scene, NULL, NULL);
-  const char* file = traceray_write(picture, count == 3 ? arguments[2] : NULL);
+  const char* file = traceray_write(picture, arguments[2]);
   const char* why = file ? traceray_explain(picture, 32, 20, 0) : NULL;
   if (why)
     printf("%s", why);

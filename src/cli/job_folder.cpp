@@ -118,6 +118,11 @@ JobFolder writeJobs(std::string_view command, const Arguments& given, const std:
   if (arguments.parts == 0 && arguments.frames.empty())
     throw Error(Fault::usage, usage + ": expected --parts N, found none", example);
   const std::string& scene = arguments.files[0];
+  if (scene == "-" || folder == "-")
+    throw Error(Fault::usage,
+                usage + ": expected " + (scene == "-" ? "a scene in a file" : "a folder") +
+                    ", found \"-\": its parts are rendered later",
+                example);
   const int parts = std::max(1, arguments.parts);
 
   std::vector<Choice> choices = arguments.choices;

@@ -159,18 +159,29 @@ Explanation Render::explain(int x, int y, int sample) const {
     const trace::Region& r = settings.region;
     if (!r.whole() && !(r.x0 <= x && x < r.x1 && r.y0 <= y && y < r.y1))
       throw Error(Error::Kind::usage, "explain: the pixel lies outside of the region that was rendered");
-    const trace::Explanation found = session.explain(x, y, sample);
+    // A render that was stopped may have a part of the pixel's samples, the first ones: they are explained.
+    int taken = 0, asked = 0;
+    if (!finished()) {
+      const trace::Picture counts = session.film().sampleCounts();
+      if (0 <= x && x < counts.width && 0 <= y && y < counts.height)
+        taken = static_cast<int>(counts.at(x, y).r);
+      if (taken == 0 || session.film().corners())
+        throw Error(Error::Kind::usage, "explain: the render was stopped before this pixel was finished");
+      if (sample >= taken)
+        throw Error(Error::Kind::usage, "explain: the render was stopped after " + std::to_string(taken) +
+                                            " samples of this pixel, found sample " + std::to_string(sample));
+    }
+    const auto isEnough = [&] { return !finished() && asked++ >= taken; };
+    const trace::Explanation found = session.explain(x, y, sample, isEnough);
     const trace::Size size = session.size();
     const trace::Scene& scene = session.sceneOf(found.tree);
     const std::vector<trace::ExplainedRay> rays = explainedRays(found.tree, scene);
-    // A render that was stopped may have a part of the pixel's samples.
-    const trace::Color rendered = finished() ? session.film().ofSamples(x, y) : found.pixel;
     const trace::PixelFacts facts{.scene = scene,
                                   .explanation = found,
                                   .rays = rays,
                                   .width = size.width,
                                   .height = size.height,
-                                  .rendered = rendered,
+                                  .rendered = session.film().ofSamples(x, y),
                                   .settings = settings};
     Explanation explanation;
     explanation.text_ = explainText(facts, false);

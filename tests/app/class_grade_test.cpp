@@ -77,9 +77,23 @@ TEST_F(ClassGradeTest, NamesMayDifferInCaseFoldersAndFormat) {
   EXPECT_EQ(of({"a.png", "b.png"}, {"hw3/out/A.BMP", "B.Png", "c.png"}), (Files{"hw3/out/A.BMP", "B.Png"}));
   EXPECT_EQ(of({"a.png"}, {"old/a.png", "a.jpg"}), Files{"a.jpg"}) << "the fewest folders";
   EXPECT_EQ(of({"a.png"}, {"x/a.jpg", "x/a.png"}), Files{"x/a.png"}) << "the same suffix";
+  EXPECT_EQ(of({"a.png"}, {"A.png", "a.png"}), Files{"a.png"}) << "the same letter case";
+  EXPECT_EQ(of({"a.png"}, {"a.PNG", "a.bmp", "A.png"}), Files{"a.PNG"}) << "letter case before suffix";
   EXPECT_EQ(of({"a.png"}, {"b.png"}), Files{""});
   EXPECT_EQ(of({"day/a.png", "night/a.png"}, {"Night/A.png", "out/day/a.bmp", "a.png"}),
             (Files{"out/day/a.bmp", "Night/A.png"}));
+}
+
+TEST_F(ClassGradeTest, FilesThatAreNotComparedAreNamed) {
+  picture("ref/a.png", classPicture());
+  picture("in/ann/a/a.png", classPicture()), picture("in/ann/b/a.png", classPicture(9, 3));
+  const ClassGrades grades = gradeClass(task());
+  const ClassStudent& ann = student(grades, "ann");
+  EXPECT_EQ(ann.pairs.at(0).file, "a/a.png");
+  ASSERT_EQ(ann.passedOver.size(), 1u);
+  EXPECT_EQ(passedOverText(ann.passedOver[0]), "b/a.png: not compared; a/a.png was");
+  EXPECT_NE(classPage(task(), grades).find("ann/b/a.png: not compared; a/a.png was"), std::string::npos);
+  EXPECT_TRUE(ann.extra.empty());
 }
 
 TEST_F(ClassGradeTest, EachStudentGetsCausesAndPointsWorstFirst) {

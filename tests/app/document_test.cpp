@@ -578,6 +578,8 @@ TEST_F(FolderTest, ListsFoldersFirstThenFilesThatFit) {
   EXPECT_EQ(entries[2].name, "b.RAY");
   EXPECT_EQ(entries[3].name, "scene.ray");
   EXPECT_THROW(listFolder(path("nowhere"), {}), Error);
+  EXPECT_EQ(withSuffix("lesson", ".ray"), "lesson.ray");
+  EXPECT_EQ(withSuffix("lesson.tr", ".ray"), "lesson.tr");
   EXPECT_EQ(nearestFolder(path("zoo/no/such")), path("zoo"));
   EXPECT_EQ(nearestFolder(path("a.ray")), fs::path(path("")).parent_path().string());
 }

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "app/session/session.h"
+#include "base/files/file.h"
 #include "scene/integrators.h"
+#include "support/folder.h"
 #include "support/paths.h"
 
 namespace trace::test {
@@ -34,6 +38,14 @@ TEST(StartPage, WithoutAFolderItHasNone) {
   EXPECT_TRUE(examplesIn("/nothing").empty());
   EXPECT_EQ(examplesFolder("/nothing/bin/ray-studio"), "");
   EXPECT_EQ(thumbnail("/nothing.ray", 32).width, 0);
+}
+
+TEST(StartPage, FindsTheScenesOfAnInstallation) {
+  const Folder folder;
+  std::filesystem::create_directories(folder / "share/doc/trace-ray/scenes");
+  std::filesystem::create_directories(folder / "libexec/trace-ray");
+  writeFile(folder / "share/doc/trace-ray/scenes/shapes.ray", "Trace 1\n");
+  EXPECT_EQ(examplesFolder(folder / "libexec/trace-ray/ray-studio"), folder / "share/doc/trace-ray/scenes");
 }
 
 TEST(StartPage, FindsTheScenesOfACheckout) {

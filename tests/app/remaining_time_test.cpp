@@ -50,6 +50,16 @@ TEST(RemainingTime, AMachineThatGetsBusyIsNoticed) {
   }
 }
 
+TEST(RemainingTime, WorkThatWaitsForItsNextPieceIsNotSaidToTakeHours) {
+  // Eight pieces of 4 s, 32 s in all.
+  RemainingTime estimate;
+  for (int i = 1; i < 320; ++i) {
+    const double elapsed = 0.1 * i;
+    if (const auto left = estimate.update(elapsed, std::floor(elapsed / 4) / 8))
+      EXPECT_LT(*left, 2 * (32 - elapsed) + 8) << elapsed;
+  }
+}
+
 TEST(RemainingTime, WorkThatComesInLargePiecesIsNotPromisedTooSoon) {
   // On a busy machine a wave of tiles is finished every 5 s; 200 s in all.
   RemainingTime estimate;

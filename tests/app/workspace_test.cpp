@@ -65,6 +65,39 @@ TEST_F(WorkspaceTest, RendersTheSamePictureAsASession) {
   EXPECT_EQ(readFile(path("out.png")), readFile(path("expected.png")));
 }
 
+TEST_F(WorkspaceTest, AnExposureThatWasMeasuredIsThatOfTheFile) {
+  writeFile(path("kind.ray"),
+            "Trace 1\nsettings { width = 24; spp = 4; denoise = off }\nplane { }\nsphere { }\n");
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("kind.ray"), {}));
+  waitFor(workspace.render);
+  workspace.savePicture(path("out.png"));
+  ASSERT_TRUE(settled(workspace));
+  Session session;
+  session.open(path("kind.ray"), {});
+  session.build();
+  session.renderPicture();
+  EXPECT_NE(session.measuredExposure(), 0);
+  session.save(path("expected.png"));
+  EXPECT_EQ(readPicture(path("out.png")), readPicture(path("expected.png")));
+}
+
+TEST_F(WorkspaceTest, OptionsThatAQualityHidesAreSaved) {
+  writeFile(path("kind.ray"), "Trace 1\n// mine\nsettings { width = 24 }\nplane { }\nsphere { }\n");
+  Document document;
+  document.open(path("kind.ray"), {});
+  document.choose("integrator", "whitted");
+  document.choose("spp", "1");
+  document.save(path("kind.ray"));
+  const std::string text = readFile(path("kind.ray"));
+  EXPECT_NE(text.find("settings { width = 24; spp = 1; integrator = whitted; }"), std::string::npos) << text;
+  EXPECT_NE(text.find("// mine"), std::string::npos) << text;
+  Document again;
+  again.open(path("kind.ray"), {});
+  EXPECT_EQ(again.settings().integrator, IntegratorKind::whitted);
+  EXPECT_EQ(again.settings().spp, 1);
+}
+
 TEST_F(WorkspaceTest, WhatIsChosenBeforeASceneIsOpenHoldsForAllThatAreOpened) {
   Workspace workspace;
   workspace.commandLine = {{"threads", "1", {}}};

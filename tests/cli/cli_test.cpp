@@ -478,7 +478,7 @@ TEST_F(Cli, StatisticsKeys) {
   const json stats = json::parse(r.out);
   std::vector<std::string> keys;
   for (const auto& item : stats.items()) keys.push_back(item.key());
-  EXPECT_EQ(keys, (std::vector<std::string>{"badSamples", "end", "fraction", "height", "meanDepth", "nodes",
+  EXPECT_EQ(keys, (std::vector<std::string>{"badSamples", "end", "error", "fraction", "height", "meanDepth", "nodes",
                                             "nodesPerRay", "output", "peakMemory", "phases", "rays",
                                             "raysPerSecond", "scene", "seconds", "settings", "shapes",
                                             "threads", "version", "width"}));
@@ -487,6 +487,7 @@ TEST_F(Cli, StatisticsKeys) {
   for (const char* phase : {"read", "build", "trace", "write"})
     EXPECT_GE(stats["phases"][phase]["wall"], 0) << phase;
   EXPECT_EQ(stats["meanDepth"], 0);
+  EXPECT_EQ(stats["error"]["mean"], 0) << "a white picture";
   EXPECT_EQ(stats["end"], "finished");
   EXPECT_EQ(stats["output"], "out.png");
   EXPECT_GT(stats["peakMemory"], 1 << 20);

@@ -84,11 +84,21 @@ TEST_F(Stop, CtrlCTwiceEndsAtOnce) {
   ASSERT_TRUE(program.says("\"done\":"));
   program.kill(SIGINT);
   ASSERT_TRUE(program.says("Ctrl-C again"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // sooner it would count as the first one
   program.kill(SIGINT);
   EXPECT_EQ(program.wait(), 130);
   // Under the sanitizers a line of progress may follow, in the time that the process takes to end.
   EXPECT_TRUE(contains(kSanitized ? program.err() : program.lastLine(), "nothing written"));
   EXPECT_FALSE(exists("out.png"));
+}
+
+TEST_F(Stop, TwoSignalsAtOnceAreOneWishToStop) {
+  Program program(folder(), longRender());
+  ASSERT_TRUE(hasBegun(program)) << program.err();
+  program.kill(SIGINT);  // as `timeout` sends one to the program and one to its group
+  program.kill(SIGTERM);
+  EXPECT_EQ(program.wait(), 4) << program.err();
+  EXPECT_TRUE(contains(program.lastLine(), "stopped by the user: wrote out.png")) << program.err();
 }
 
 /// A bar that is drawn is wiped out behind it.

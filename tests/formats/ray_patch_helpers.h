@@ -33,7 +33,6 @@ struct Saved {
 };
 
 inline Saved saved(const SceneText& read, Scene edited) {
-  edited.choices = changedOptions(resolve({edited.choices}));
   Messages messages;
   const auto files = rewriteRay(read, edited, read.file, messages).files;
   return {files.at(0).bytes, messages.all()};

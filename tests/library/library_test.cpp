@@ -133,6 +133,25 @@ TEST(Library, ProgressIsHeardAndStopsTheRender) {
       Own);
 }
 
+TEST(Library, APixelOfAStoppedRenderIsExplainedByTheSamplesThatItHas) {
+  const Scene scene = Scene::fromText(kBall);
+  const Render render = scene.render({{"width", 24}, {"height", 24}, {"spp", 65536}, {"integrator", "path"}},
+                                     [](const Progress& progress) { return progress.fraction == 0; });
+  ASSERT_EQ(render.end(), "cancelled");
+  int explained = 0;
+  for (int x = 0; x < 24; x += 3) {
+    try {
+      const Explanation why = render.explain(x, 12);
+      EXPECT_TRUE(why.agrees()) << why.text();
+      EXPECT_EQ(static_cast<float>(why.pixel()[0]), render.image().pixel(x, 12)[0]) << x;
+      ++explained;
+    } catch (const Error& error) {
+      EXPECT_TRUE(holds(error.what(), "stopped before this pixel")) << error.what();
+    }
+  }
+  EXPECT_GT(explained, 0);
+}
+
 TEST(Library, PassesExplainLintAndDiff) {
   const Scene scene = Scene::fromText(kBall);
   Options options = kSmall;

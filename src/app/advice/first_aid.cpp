@@ -106,6 +106,22 @@ std::optional<Message> firstAid(const Scene& scene, const Settings& settings, co
   }
 }
 
+std::optional<PictureError> estimatedError(const Settings& settings, const Film& film) {
+  if (film.corners() || film.takesSplats() || hasTrait(settings, Trait::showsData)) return {};
+  const Picture errors = film.errors(), counts = film.sampleCounts();
+  std::vector<double> levels;
+  double sum = 0;
+  for (std::size_t i = 0; i < errors.pixels.size(); ++i) {
+    if (counts.pixels[i].r < 2) continue;
+    levels.push_back(255 * errors.pixels[i].r);
+    sum += levels.back();
+  }
+  if (levels.empty()) return {};
+  std::sort(levels.begin(), levels.end());
+  return PictureError{sum / static_cast<double>(levels.size()), levels[levels.size() / 2],
+                      levels[9 * levels.size() / 10]};
+}
+
 std::string noiseText(const Settings& settings, const Film& film) {
   if (!hasTrait(settings, Trait::meetsLamps) || film.corners() || film.takesSplats()) return "";
   if (film.noiseTarget() > 0) return missedTargetText(settings, film);

@@ -18,6 +18,15 @@ namespace trace {
 std::optional<Message> firstAid(const Scene& scene, const Settings& settings, const World& world,
                                 const Film& film);
 
+/// The estimated error of the pixels, tone-mapped and before denoising: the standard error of their samples'
+/// mean, in levels of 255.
+struct PictureError {
+  double mean, median, ninth;  ///< `ninth`: nine of ten pixels have no more
+};
+/// Nothing where no pixel has two samples at random, or where that is not measured (chains, samples at
+/// corners).
+std::optional<PictureError> estimatedError(const Settings& settings, const Film& film);
+
 /// To follow the last line of a render of a noisy picture: its estimated error and the samples that halve it,
 /// or, where pixels stop for a noise target, how many missed it and the samples that would do. "" if it is
 /// not noisy, or if nothing is known of that.

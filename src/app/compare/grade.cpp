@@ -131,10 +131,12 @@ void compareInto(GradedPair& pair, const GradeTask& task, InputFiles& inputs) {
   if (pair.file.empty() || pair.verdict == Verdict::unreadable) return;
   const std::string test = (fs::path(task.folder) / pair.file).generic_string();
   const std::string reference = (fs::path(task.reference) / pair.name).generic_string();
-  const PictureDifference d =
-      difference(loadPicture(reference),
-                 task.renderScenes ? renderedScene(test, task, inputs) : loadPicture(test), task.difference);
+  std::string warnings;
+  const PictureDifference d = difference(
+      loadPicture(reference),
+      task.renderScenes ? renderedScene(test, task, inputs, &warnings) : loadPicture(test), task.difference);
   judge(pair, d, task, inputs);
+  noteWarnings(pair, warnings);
   if (task.keepsPictures) addPictures(pair, d, task.magnify);
 }
 
@@ -220,7 +222,13 @@ std::string_view verdictText(Verdict verdict) {
   return kTexts[static_cast<std::size_t>(verdict)];
 }
 
-LoadedPicture renderedScene(const std::string& scene, const GradeTask& task, InputFiles& inputs) {
+void noteWarnings(GradedPair& pair, const std::string& warnings) {
+  if (passes(pair.verdict) || warnings.empty()) return;
+  pair.problem += (pair.problem.empty() ? "" : "\n") + warnings;
+}
+
+LoadedPicture renderedScene(const std::string& scene, const GradeTask& task, InputFiles& inputs,
+                            std::string* warnings) {
   Budget limit(budgetOfThread.budget);
   limit.limitTime(task.sceneLimit);
   Budget own(&limit);  // the session sets it to the scene's own time limit
@@ -229,6 +237,9 @@ LoadedPicture renderedScene(const std::string& scene, const GradeTask& task, Inp
   session.open(scene, task.choices, task.strict);
   inputs = session.scene().inputs;
   session.build();
+  if (warnings)
+    for (const Message& message : session.messages().all())
+      *warnings += (warnings->empty() ? "" : "\n") + toString(message);
   const RenderResult result = session.renderPicture();
   if (result.end == End::timeLimit && task.sceneLimit > 0 && limit.seconds() > task.sceneLimit)
     throw Error(Fault::limit, "it takes longer than the " + toText(task.sceneLimit) + " s of --scene-limit");

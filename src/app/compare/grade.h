@@ -68,8 +68,12 @@ std::string sceneOf(const GradeTask& task, const std::string& reference);
 void judgeOrNote(GradedPair& pair, const std::function<void()>& compare);
 
 /// The picture of a scene of the task's folder, rendered within the limits of the task. `inputs` receives the
-/// files that it read. Throws Error.
-LoadedPicture renderedScene(const std::string& scene, const GradeTask& task, InputFiles& inputs);
+/// files that it read, `warnings` what reading warned of, a line each. Throws Error.
+LoadedPicture renderedScene(const std::string& scene, const GradeTask& task, InputFiles& inputs,
+                            std::string* warnings = nullptr);
+
+/// Notes the warnings about the scene of a pair that failed: they may say why.
+void noteWarnings(GradedPair& pair, const std::string& warnings);
 
 /// One self-contained HTML page: a table, worst first, with the pictures in it, and a viewer to swipe between
 /// them. Needs nothing but a browser, works offline, by keyboard, in light and dark.

@@ -33,11 +33,18 @@ bool keepsText(std::string_view format) {
                      [&](const SceneFormat& row) { return row.name == format && row.rewrite != nullptr; });
 }
 
-/// The choices that a saved scene makes: not those of this machine.
-std::vector<Choice> ofTheScene(const Settings& settings) {
-  std::vector<Choice> choices = changedOptions(settings);
-  std::erase_if(choices,
-                [](const Choice& choice) { return findOption(choice.option).repeats == Repeats::nothing; });
+/// The choices that a saved scene makes: not those of this machine, nor those that its quality makes.
+std::vector<Choice> ofTheScene(const Scene& scene, const Settings& settings) {
+  std::vector<Choice> quality;
+  if (settings.quality != Quality::none)
+    quality.push_back({"quality", findOption("quality").get(settings), {}});
+  const Settings implied = settingsFor(scene, {quality});
+  std::vector<Choice> choices = quality;
+  for (const Option& option : options()) {
+    if (option.repeats == Repeats::nothing || option.name == "quality") continue;
+    if (const std::string value = option.get(settings); value != option.get(implied))
+      choices.push_back({std::string(option.name), value, {}});
+  }
   return choices;
 }
 
@@ -100,7 +107,7 @@ Document::Reading Document::read(const Source& source) {
 void Document::take(const Reading& reading, bool anew) {
   if (anew) {
     moments_.clear();
-    choicesOnDisk_ = ofTheScene(settingsFor(*reading.scene, {reading.scene->choices}));
+    choicesOnDisk_ = ofTheScene(*reading.scene, settingsFor(*reading.scene, {reading.scene->choices}));
   }
   moments_.insert(reading.scene);
   onDisk_ = reading.scene;
@@ -126,7 +133,8 @@ void Document::open(const std::string& file, std::vector<Choice> commandLine) {
 void Document::settle() {
   const Edition& edition = editions_[current_];
   settings_ = settingsFor(*edition.scene, {edition.scene->choices, commandLine_, edition.choices});
-  choices_ = ofTheScene(settingsFor(*edition.scene, {edition.scene->choices, edition.choices}));
+  choices_ =
+      ofTheScene(*edition.scene, settingsFor(*edition.scene, {edition.scene->choices, edition.choices}));
   ++revision_;
 }
 

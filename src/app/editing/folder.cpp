@@ -41,6 +41,10 @@ std::vector<FolderEntry> listFolder(const std::string& path, const std::vector<s
   return entries;
 }
 
+std::string withSuffix(const std::string& name, const std::string& suffix) {
+  return fs::path(name).has_extension() ? name : name + suffix;
+}
+
 std::string nearestFolder(const std::string& path) {
   std::error_code error;
   fs::path folder = path.empty() ? fs::current_path(error) : fs::absolute(path, error);

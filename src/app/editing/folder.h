@@ -18,6 +18,9 @@ struct FolderEntry {
 /// without regard to case. Hidden ones are left out. Throws Error(Fault::io).
 std::vector<FolderEntry> listFolder(const std::string& path, const std::vector<std::string>& suffixes);
 
+/// The name with that suffix if it has none.
+std::string withSuffix(const std::string& name, const std::string& suffix);
+
 /// The folder itself, or the nearest one above that exists; the current folder for "".
 std::string nearestFolder(const std::string& path);
 

@@ -310,6 +310,8 @@ void Workspace::savePicture(const std::string& file) {
   Settings settings = session->settings();  // but what comes after the film is as it is now
   for (const Option& option : options())
     if (option.repeats == Repeats::tone) option.assign(settings, option.get(document.settings()));
+  settings.autoExposure = document.settings().autoExposure;
+  settings = withExposureMeasured(std::move(settings));
   Metadata words = describe(session->scene(), settings);
   if (const std::string print = document.fileFingerprint(); !stale() && !print.empty())
     words.emplace_back("Scene", print);
@@ -389,6 +391,14 @@ Settings Workspace::shownSettings() const {
   if (!document.isOpen()) return session ? session->settings() : Settings{};
   const bool others = session && session->scene().file != document.scene().file;
   return others ? session->settings() : document.settings();
+}
+
+Settings Workspace::withExposureMeasured(Settings settings) const {
+  if (const auto session = render.session(); session && settings.autoExposure) {
+    settings.exposure += session->measuredExposure();
+    settings.autoExposure = false;
+  }
+  return settings;
 }
 
 bool Workspace::stale() const {

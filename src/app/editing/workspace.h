@@ -45,6 +45,8 @@ class Workspace {
   /// How the picture that is to be seen is developed: as the document says, or, as long as it is one of
   /// another scene, as that did.
   Settings shownSettings() const;
+  /// With the exposure that the render has measured, where it was to be measured.
+  Settings withExposureMeasured(Settings settings) const;
   /// Changes that the picture does not show yet; never with `automatic`.
   bool stale() const;
 

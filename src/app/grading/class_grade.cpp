@@ -72,6 +72,13 @@ std::size_t agreement(const std::vector<std::string>& a, const std::vector<std::
   return count;
 }
 
+/// How much the name, without folders, is that of the reference: in letter case, then in suffix.
+int likeness(const fs::path& file, const fs::path& reference) {
+  if (file.filename() == reference.filename()) return 3;
+  if (file.stem() == reference.stem()) return 2;
+  return lowerCase(file.extension().generic_string()) == lowerCase(reference.extension().generic_string());
+}
+
 /// The files whose name, without folders and suffix, is that of no reference.
 std::vector<std::string> withoutReference(const std::vector<std::string>& references,
                                           const std::vector<std::string>& files) {
@@ -81,6 +88,24 @@ std::vector<std::string> withoutReference(const std::vector<std::string>& refere
   for (const std::string& file : files)
     if (!known.contains(partsFromEnd(file).front())) others.push_back(file);
   return others;
+}
+
+/// The files that have the name of a reference and were not assigned to one.
+std::vector<PassedOver> passedOverBy(const std::vector<std::string>& assigned,
+                                     const std::vector<std::string>& files,
+                                     const std::vector<std::string>& extra) {
+  const auto isAmong = [](const std::vector<std::string>& list, const std::string& file) {
+    return std::find(list.begin(), list.end(), file) != list.end();
+  };
+  std::vector<PassedOver> all;
+  for (const std::string& file : files) {
+    if (isAmong(assigned, file) || isAmong(extra, file)) continue;
+    const auto inItsPlace = std::find_if(assigned.begin(), assigned.end(), [&](const std::string& other) {
+      return !other.empty() && partsFromEnd(other).front() == partsFromEnd(file).front();
+    });
+    all.push_back({file, inItsPlace == assigned.end() ? "" : *inItsPlace});
+  }
+  return all;
 }
 
 /// The student's folder: its files and a hash of all that a scene in it may read.
@@ -260,7 +285,10 @@ class ClassGrader {
           files.push_back(file.generic_string());
     if (task_.grade.renderScenes || runs()) student.everything = hashOfFolder(student.folder);
     const std::vector<std::string> assigned = assignSubmissions(names, files);
-    if (!runs()) graded.extra = withoutReference(names, files);
+    if (!runs()) {
+      graded.extra = withoutReference(names, files);
+      graded.passedOver = passedOverBy(assigned, files, graded.extra);
+    }
     for (std::size_t i = 0; i < names.size(); ++i) {
       GradedPair& pair = graded.pairs[i];
       pair.file = runs() ? "" : assigned[i];
@@ -309,11 +337,13 @@ class ClassGrader {
         const std::lock_guard lock(mutex_);
         if (results_.find(key, pair)) return;
       }
-      const PictureDifference d =
-          difference(*reference.picture,
-                     task_.grade.renderScenes ? renderedScene(file, task_.grade, inputs) : loadPicture(file),
-                     task_.grade.difference);
+      std::string warnings;
+      const PictureDifference d = difference(
+          *reference.picture,
+          task_.grade.renderScenes ? renderedScene(file, task_.grade, inputs, &warnings) : loadPicture(file),
+          task_.grade.difference);
       judge(pair, d, task_.grade, inputs);
+      noteWarnings(pair, warnings);
       if (task_.grade.keepsPictures && !passes(pair.verdict)) addThumbnails(pair, d);
       const std::lock_guard lock(mutex_);
       results_.add(key, pair);
@@ -351,14 +381,14 @@ class ClassGrader {
       if (task_.grade.keepsPictures && !passes(pair.verdict)) addThumbnails(pair, d);
     });
     pair.cpu = cpu;
-    pair.ourCpu = ourCpuOf(scene);
+    pair.ourCpu = ourCpuOf(scene, reference.picture->picture);
     const std::lock_guard lock(mutex_);
     results_.add(key, pair);
     ++grades_.computed;
   }
 
-  /// The processor time that Trace takes for the scene; measured once, and kept.
-  double ourCpuOf(const std::string& scene) {
+  /// The processor time that Trace takes for the scene in the size of the reference; measured once, and kept.
+  double ourCpuOf(const std::string& scene, const Picture& reference) {
     if (const auto known = ourCpu_.find(scene); known != ourCpu_.end()) return known->second;
     Hash hash;
     for (const std::uint64_t part : {optionsHash_, scenesHash_}) hash.add(part);
@@ -370,8 +400,11 @@ class ClassGrader {
     }
     judgeOrNote(ours, [&] {
       InputFiles inputs;
+      GradeTask task = task_.grade;
+      task.choices.push_back({"width", std::to_string(reference.width), {}});
+      task.choices.push_back({"height", std::to_string(reference.height), {}});
       const double begin = os::cpuSeconds();
-      renderedScene(scene, task_.grade, inputs);
+      renderedScene(scene, task, inputs);
       ours.ourCpu = os::cpuSeconds() - begin;
     });
     const std::lock_guard lock(mutex_);
@@ -435,6 +468,11 @@ class ClassGrader {
 
 }  // namespace
 
+std::string passedOverText(const PassedOver& file) {
+  return file.file + ": not compared; " +
+         (file.compared.empty() ? "several references have its name" : file.compared + " was");
+}
+
 std::vector<std::string> assignSubmissions(const std::vector<std::string>& references,
                                            const std::vector<std::string>& files) {
   std::vector<std::vector<std::string>> wanted;
@@ -447,12 +485,8 @@ std::vector<std::string> assignSubmissions(const std::vector<std::string>& refer
     if (agrees != agreed[i]) return agrees > agreed[i];
     const auto depth = [](const std::string& path) { return std::count(path.begin(), path.end(), '/'); };
     if (depth(file) != depth(other)) return depth(file) < depth(other);
-    const auto suffix = [](const std::string& path) {
-      return lowerCase(fs::path(path).extension().generic_string());
-    };
-    const bool same = suffix(file) == suffix(references[i]),
-               otherSame = suffix(other) == suffix(references[i]);
-    return same != otherSame ? same : file < other;
+    const int alike = likeness(file, references[i]), otherAlike = likeness(other, references[i]);
+    return alike != otherAlike ? alike > otherAlike : file < other;
   };
   for (const std::string& file : files) {
     const std::vector<std::string> parts = partsFromEnd(file);

@@ -27,11 +27,21 @@ struct ClassScene {
   std::string thumbnail;  ///< a JPEG file; empty where nothing keeps pictures
 };
 
+/// A file that has the name of a reference, and was not compared.
+struct PassedOver {
+  std::string file;
+  std::string compared;  ///< the one in its place; "" where its name is that of several references
+};
+
+/// "b/glass.png: not compared; a/glass.png was".
+std::string passedOverText(const PassedOver& file);
+
 struct ClassStudent {
   std::string name;
   std::vector<GradedPair> pairs;  ///< one for each scene, in their order; its pictures are small JPEG files
   std::vector<double> points;     ///< the points of each pair
   std::vector<std::string> extra{};  ///< files whose name is that of no reference
+  std::vector<PassedOver> passedOver{};
   double total = 0;
   std::size_t passed = 0;
 };
@@ -46,7 +56,8 @@ struct ClassGrades {
 
 /// For each reference the student's file, "" if there is none. A file is of the reference with whose path its
 /// own agrees longest from the end on; folders, letter case and suffix may differ. Of several files the one
-/// in the fewest folders counts, then the one with the same suffix, then the first by name.
+/// in the fewest folders counts, then the one with the very name, then the same letter case, the same suffix,
+/// and the first by name.
 std::vector<std::string> assignSubmissions(const std::vector<std::string>& references,
                                            const std::vector<std::string>& files);
 

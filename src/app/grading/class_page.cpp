@@ -160,7 +160,11 @@ std::string extraHtml(const ClassGrades& grades) {
   for (const ClassStudent& student : grades.students)
     for (const std::string& file : student.extra)
       files += (files.empty() ? " " : ", ") + escaped(student.name + "/" + file);
-  return files.empty() ? "" : "<p class=\"faint\">Without a reference:" + files + "</p>\n";
+  std::string html = files.empty() ? "" : "<p class=\"faint\">Without a reference:" + files + "</p>\n";
+  for (const ClassStudent& student : grades.students)
+    for (const PassedOver& file : student.passedOver)
+      html += "<p class=\"faint\">" + escaped(student.name + "/" + passedOverText(file)) + "</p>\n";
+  return html;
 }
 
 }  // namespace

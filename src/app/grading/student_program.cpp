@@ -47,7 +47,8 @@ LoadedPicture programPicture(const ProgramRun& run, const std::string& folder, c
   job.limits = run.limits;
   job.isolated = run.isolated;
   const SandboxResult result = runSandboxed(job);
-  cpuSeconds = result.cpuSeconds;
+  // One that was stopped has taken more than its children that ended, of which alone the system tells.
+  cpuSeconds = result.end == SandboxResult::End::exited ? result.cpuSeconds : -1;
   const std::string said = lastLine(result.said), end = endText(result, run);
   const auto fail = [&](std::string why) {
     if (why.empty()) why = end;

@@ -10,16 +10,18 @@ std::optional<double> RemainingTime::update(double elapsed, double fraction, dou
   if (fraction >= 1) return 0;
   fraction = (fraction - before) / (1 - before);
   constexpr double kForgets = 4;  // what was done after x of the time until now counts x to this power
-  const double since = std::max(0.0, elapsed - clock_);
-  const double kept = elapsed > 0 ? std::pow(clock_ / elapsed, kForgets) : 0;
-  recentTime_ = recentTime_ * kept + since;
-  recent_ = recent_ * kept + std::max(0.0, fraction - done_);
-  clock_ = std::max(clock_, elapsed);
-  done_ = std::max(done_, fraction);
+  if (fraction > done_) {         // what comes in large pieces is judged when one comes
+    const double kept = elapsed > 0 ? std::pow(clock_ / elapsed, kForgets) : 0;
+    recentTime_ = recentTime_ * kept + std::max(0.0, elapsed - clock_);
+    recent_ = recent_ * kept + fraction - done_;
+    clock_ = std::max(clock_, elapsed);
+    done_ = fraction;
+  }
+  const double waiting = std::max(0.0, elapsed - clock_);
   if (fraction < kLeastFraction) return {};
   constexpr double kSmoothing = 8;  // the estimate settles over this part of the time elapsed
   const double onAverage = elapsed / fraction - elapsed;  // if the rest continues as until now
-  const double ofLate = recent_ > 0 ? (1 - fraction) * recentTime_ / recent_ : onAverage;
+  const double ofLate = recent_ > 0 ? (1 - fraction) * (recentTime_ + waiting) / recent_ : onAverage;
   const double steady = std::max(onAverage, ofLate);
   if (!left_) {
     left_ = steady;

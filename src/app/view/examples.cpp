@@ -63,8 +63,9 @@ std::vector<ExampleScene> found(const std::string& folder, const std::array<Row,
 
 std::string examplesFolder(const std::string& program) {
   const fs::path folder = fs::path(program).parent_path();
-  for (const char* place :
-       {"../share/doc/trace/scenes", "../share/doc/trace-ray/scenes", "../../../scenes", "scenes"}) {
+  // Installed, the programs are in libexec/trace-ray (cmake/install.cmake).
+  for (const char* place : {"../../share/doc/trace-ray/scenes", "../share/doc/trace-ray/scenes",
+                            "../../../scenes", "scenes"}) {
     std::error_code none;
     if (const fs::path scenes = folder / place; fs::exists(scenes / kExamples.front().file, none))
       return scenes.lexically_normal().generic_string();

@@ -8,11 +8,12 @@
 // PAGE.results, from which a run that was interrupted continues. Keys: folder, reference, possible, stopped
 // (or null), scenes[] of {name, points}, students[] of {name, points, passed, pairs[] of {file, verdict,
 // points, mistakes[], cause, problem, cpu, our_cpu (seconds, or null)}, extra[] (files that have no
-// reference)}, page, csv (or null).
+// reference), passed_over[] of {file, compared (in its place, or "")}}, page, csv (or null).
 #include <algorithm>
 #include <array>
 #include <filesystem>
 
+#include "app/compare/grade_files.h"
 #include "app/grading/class_grade.h"
 #include "app/session/json.h"
 #include "base/budget.h"
@@ -33,6 +34,9 @@ GradeTask taskOf(const Arguments& arguments) {
                 "ray grade DIR --reference DIR");
   if (arguments.reference.empty())
     throw Error(Fault::usage, "ray grade: expected --reference DIR, the folder of reference pictures");
+  const std::string suffix = lowerCase(std::filesystem::path(arguments.output).extension().generic_string());
+  if (!arguments.output.empty() && suffix != ".html" && suffix != ".htm")
+    throw Error(Fault::usage, "-o: expected a page, such as grades.html, found \"" + arguments.output + "\"");
   return {.folder = arguments.files[0],
           .reference = arguments.reference,
           .renderScenes = arguments.renderScenes,
@@ -144,6 +148,8 @@ std::string classText(const ClassGrades& grades) {
                         " within the limits",
                     numberText(student.total)});
     for (const std::string& file : student.extra) extra += student.name + "/" + file + ": has no reference\n";
+    for (const PassedOver& file : student.passedOver)
+      extra += student.name + "/" + passedOverText(file) + "\n";
     for (const GradedPair& pair : student.pairs) {
       if (passes(pair.verdict)) continue;
       const std::string& why = pair.cause.empty() ? pair.problem : pair.cause;
@@ -169,12 +175,11 @@ std::string classJson(const ClassTask& task, const ClassGrades& grades) {
   for (const ClassScene& scene : grades.scenes)
     json["scenes"].add(Json{{"name", scene.name}, {"points", scene.points}});
   for (const ClassStudent& student : grades.students) {
-    Json one{{"name", student.name},
-             {"points", student.total},
-             {"passed", student.passed},
-             {"pairs", Json::list()},
-             {"extra", Json::list()}};
+    Json one{{"name", student.name},  {"points", student.total}, {"passed", student.passed},
+             {"pairs", Json::list()}, {"extra", Json::list()},   {"passed_over", Json::list()}};
     for (const std::string& file : student.extra) one["extra"].add(file);
+    for (const PassedOver& file : student.passedOver)
+      one["passed_over"].add(Json{{"file", file.file}, {"compared", file.compared}});
     for (std::size_t i = 0; i < student.pairs.size(); ++i) {
       const GradedPair& pair = student.pairs[i];
       Json mistakes = Json::list();
@@ -199,8 +204,6 @@ int classCommand(const Arguments& arguments, const Console& console, bool asJson
                  .results = besidePage(arguments.output, ".results"),
                  .run = runOf(arguments),
                  .csv = besidePage(arguments.output, ".csv")};
-  if (!arguments.output.empty() && (task.csv == arguments.output || task.results == arguments.output))
-    throw Error(Fault::usage, "-o: expected a page, such as class.html, found \"" + arguments.output + "\"");
   for (const std::string& file : {arguments.output, task.csv, task.results}) {
     if (!file.empty()) checkWritable(file);
     if (!arguments.rubric.empty()) checkDistinct(arguments.rubric, file);

@@ -9,6 +9,7 @@
 #include "app/session/remaining_time.h"
 #include "app/session/session.h"
 #include "base/files/file.h"
+#include "base/os/console.h"
 #include "base/text.h"
 #include "cli/commands/commands.h"
 #include "cli/frames.h"
@@ -73,7 +74,6 @@ class PictureForStdout {
   PictureForStdout& operator=(const PictureForStdout&) = delete;
 
   const std::string& picture() const { return picture_; }
-  void print() const { printFile(readFile(picture_)); }
 
  private:
   const fs::path folder_;
@@ -90,6 +90,9 @@ int renderToStdout(const Arguments& arguments, const Console& console) {
     throw Error(Fault::usage, "-o - and --stats=json both write to the standard output",
                 "--stats prints a table to "
                 "the terminal");
+  if (os::isScreen(os::Stream::result))
+    throw Error(Fault::usage, "-o -: the standard output is a terminal, which shows no picture",
+                "ray SCENE -o - | PROGRAM, or -o picture.png");
   const PictureForStdout file(format);
   Arguments own = arguments;
   own.files.resize(1);
@@ -97,9 +100,7 @@ int renderToStdout(const Arguments& arguments, const Console& console) {
   own.resume = Resume::never;
   own.choices.push_back({"checkpoint-every", "0", {}});
   own.toStdout = true;
-  const int code = renderCommand(own, console);
-  if (fs::exists(file.picture())) file.print();
-  return code;
+  return renderCommand(own, console);
 }
 
 }  // namespace
@@ -183,6 +184,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   std::string chosen = chosenText(session.scene(), session.settings(), session.measuredExposure());
   if (!chosen.empty()) chosen.insert(0, "; ");
   const std::string passes = saved.finish == LastSteps::all ? andPasses(session.settings()) : "";
+  if (arguments.toStdout) printFile(readFile(saved.path));
   const std::string written = arguments.toStdout ? "the picture to the standard output" : saved.path;
   console.last(code == kDone, stopped + "wrote " + written + passes + " (" +
                                   pictureText(session, session.job().fraction()) + ") in " +

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <new>
@@ -18,12 +20,15 @@ namespace {
 // The state that the handler of interrupts may touch: lock-free atomics and the bell.
 std::atomic<os::Bell*> gBell{nullptr};
 std::atomic<int> gStops{0};
+std::atomic<std::int64_t> gFirstStop{0};  // nanoseconds of the steady clock
 enum class Phase { starting, preparing, rendering, finishing };
 std::atomic<Phase> gPhase{Phase::starting};
 std::atomic<bool> gAsked{false};  // to stop, while preparing or finishing
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Phase>::is_always_lock_free);
 
-constexpr int kStoppedAtOnce = 130;  // 128 + SIGINT, as shells report it
+// `timeout` and others signal a program and then its group: that is one wish to stop.
+constexpr std::int64_t kOneWish = 50'000'000;  // nanoseconds
+constexpr int kStoppedAtOnce = 130;            // 128 + SIGINT, as shells report it
 
 void post(char message) {
   if (os::Bell* bell = gBell) bell->ring(message);
@@ -31,8 +36,11 @@ void post(char message) {
 
 void onInterrupt(os::Interrupt interrupt) {
   if (interrupt != os::Interrupt::stop) return post('w');
-  if (gPhase == Phase::starting || gStops.fetch_add(1) > 0)
-    os::endAtOnce("\nnothing written: stopped at once by the user\n", kStoppedAtOnce);
+  const std::int64_t now = std::chrono::steady_clock::now().time_since_epoch() / std::chrono::nanoseconds(1);
+  const bool isFirst = gPhase != Phase::starting && gStops.fetch_add(1) == 0;
+  if (isFirst) gFirstStop = now;
+  if (!isFirst && gPhase != Phase::starting && now - gFirstStop < kOneWish) return;
+  if (!isFirst) os::endAtOnce("\nnothing written: stopped at once by the user\n", kStoppedAtOnce);
   gAsked = gPhase == Phase::preparing || gPhase == Phase::finishing;
   post('s');  // also for a render that begins right now
 }

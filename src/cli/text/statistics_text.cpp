@@ -3,6 +3,7 @@
 #include <optional>
 #include <string_view>
 
+#include "app/advice/first_aid.h"
 #include "app/session/json.h"
 #include "base/parallel.h"
 #include "cli/text/formatted.h"
@@ -78,6 +79,11 @@ std::string statisticsTable(const Run& run) {
                   orDash("%.3f", ratio(s.movesKept[i], s.moves[i])));
   if (s.hasMoves())
     text += row("brightness", "", "", formatted("+-%.2g %%", 100 * run.result.brightnessError));
+  if (const auto error = estimatedError(run.session.settings(), run.session.film())) {
+    text += row("levels of 255", "mean", "median", "9 of 10");
+    text += row("error", formatted("%.3g", error->mean), formatted("%.3g", error->median),
+                formatted("%.3g", error->ninth));
+  }
   text += row("phases", "wall", "CPU");
   for (const Phase& phase : run.session.phases())
     text += row(phase.name, formatted("%.3f s", phase.wall), formatted("%.3f s", phase.cpu));
@@ -116,6 +122,9 @@ std::string statisticsJson(const Run& run) {
     if (s.moves[i] > 0)
       json["chains"][kMoveLooks[i].name] = {{"moves", s.moves[i]}, {"kept", s.movesKept[i]}};
   if (s.hasMoves()) json["chains"]["brightnessError"] = run.result.brightnessError;
+  json["error"] = Json();
+  if (const auto error = estimatedError(session.settings(), session.film()))
+    json["error"] = {{"mean", error->mean}, {"median", error->median}, {"ninth", error->ninth}};
   json["badSamples"] = {{"count", s.badSamples}, {"first", Json::list()}};
   for (const BadSample& bad : run.result.badSamples)
     json["badSamples"]["first"].add({{"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}});

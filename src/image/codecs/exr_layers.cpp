@@ -195,14 +195,18 @@ ShownChannels shownChannels(const std::vector<ExrPart>& parts, const std::string
   if (parts.empty()) throw std::runtime_error("it has no part");
   if (layer.empty()) return usualOf(parts);
   const std::string lower = lowered(layer);
-  for (const Fits& fits :
-       {Fits([&](std::string_view name) { return name == layer; }),
-        Fits([&](std::string_view name) { return lowered(name) == lower; }), Fits([&](std::string_view name) {
-          const std::string all = lowered(name);
-          return all.ends_with("." + lower) || all.starts_with(lower + ".");
-        })})
-    if (ShownChannels found = chosenIf(parts, fits); !found.shown.empty()) return found;
   const std::vector<std::string> names = choices(parts);
+  for (const Fits& fits : {Fits([&](std::string_view name) { return name == layer; }),
+                           Fits([&](std::string_view name) { return lowered(name) == lower; }),
+                           Fits([&](std::string_view name) { return lowered(name).ends_with("." + lower); })})
+    if (ShownChannels found = chosenIf(parts, fits); !found.shown.empty()) return found;
+  const auto isWithin = [&](std::string_view name) { return lowered(name).starts_with(lower + "."); };
+  std::vector<std::string> within;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(within), isWithin);
+  if (within.size() > 1)
+    throw std::runtime_error("expected one of the layers of \"" + layer + "\", " + namesIn(within) +
+                             "; found \"" + layer + "\"");
+  if (ShownChannels found = chosenIf(parts, isWithin); !found.shown.empty()) return found;
   const std::string meant = didYouMean(layer, std::vector<std::string_view>(names.begin(), names.end()));
   throw std::runtime_error("expected one of its layers, " + namesIn(names) + "; found \"" + layer + "\"" +
                            (meant.empty() ? "" : "; " + meant));

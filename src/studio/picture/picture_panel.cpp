@@ -53,9 +53,7 @@ void refreshPlane(Studio& studio, bool pictureChanged) {
 void refresh(Studio& studio) {
   PictureView& view = studio.picture;
   Workspace& workspace = studio.workspace;
-  Settings settings = workspace.shownSettings();
-  if (const auto session = workspace.render.session(); session && settings.autoExposure)
-    settings.exposure += session->measuredExposure();
+  const Settings settings = workspace.withExposureMeasured(workspace.shownSettings());
   const bool toneChanged = view.exposed != view.exposure || view.development != developmentOf(settings) ||
                            view.rounding != settings.rounding || view.channelShown != view.channel;
   bool pictureChanged = false;

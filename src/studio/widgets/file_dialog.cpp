@@ -22,6 +22,8 @@ void FileDialog::open(const std::string& title, Purpose purpose, const std::stri
   suffixes_ = std::move(suffixes);
   chosen_ = std::move(chosen);
   name_ = purpose == Purpose::write ? fs::path(at).filename().generic_string() : "";
+  suffix_ = fs::path(at).extension().generic_string();
+  if (suffix_.empty() && !suffixes_.empty()) suffix_ = suffixes_.front();
   open_ = appearing_ = focusName_ = true;
   enter(nearestFolder(at));
 }
@@ -37,9 +39,11 @@ void FileDialog::enter(const std::string& folder) {
   }
 }
 
-void FileDialog::choose(const std::string& name) {
-  const fs::path path = fs::path(folder_) / name;
+void FileDialog::choose(const std::string& given) {
   std::error_code ignored;
+  const bool isNew = purpose_ == Purpose::write && !fs::is_directory(fs::path(folder_) / given, ignored);
+  const std::string name = isNew ? withSuffix(given, suffix_) : given;
+  const fs::path path = fs::path(folder_) / name;
   if (fs::is_directory(path, ignored)) {
     if (purpose_ == Purpose::read) name_.clear();
     return enter(path.lexically_normal().generic_string());

@@ -20,7 +20,6 @@ namespace {
 
 /// Students' names of a point light with a size, and that size.
 constexpr std::string_view kAreaLight = "area_light";
-constexpr std::string_view kWatts = "power";
 constexpr std::array<std::string_view, 3> kRadius{"bottom_radius", "light_radius", "area"};
 
 /// Students' names of the fields of spot lights (docs/lights.md).
@@ -77,10 +76,6 @@ const LightType* typeCalled(std::string_view keyword) {
 bool isRequired(std::string_view field, bool isOfKind) {
   return field == "position" || field == "direction" || (field == "color" && !isOfKind);
 }
-
-/// The watts of a light that shines to all sides with a colour of 1: a matt white surface at the distance 1
-/// shows intensity / pi, and the intensity is power / (4 pi).
-constexpr Real kPowerOfOne = 4 * kPi * kPi;
 
 std::string lightWord(const Light& light) { return std::string(light.keyword()); }
 

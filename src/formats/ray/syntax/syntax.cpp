@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "formats/ray/syntax/parser.h"
@@ -63,10 +64,17 @@ bool Syntax::isOfKind() const {
 Item Syntax::root() const { return {*this, 0}; }
 
 std::optional<Item> Syntax::itemAt(std::size_t offset) const {
-  const auto found = std::lower_bound(nodes_.begin() + 1, nodes_.end(), offset,
-                                      [](const Node& node, std::size_t at) { return node.offset < at; });
-  if (found == nodes_.end() || found->offset != offset) return {};
-  return Item(*this, static_cast<std::uint32_t>(found - nodes_.begin()));
+  if (byOffset_.empty()) {  // loops and names give the nodes another order
+    byOffset_.resize(nodes_.size() - 1);
+    std::iota(byOffset_.begin(), byOffset_.end(), 1u);
+    std::stable_sort(byOffset_.begin(), byOffset_.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return nodes_[a].offset < nodes_[b].offset; });
+  }
+  const auto found =
+      std::lower_bound(byOffset_.begin(), byOffset_.end(), offset,
+                       [&](std::uint32_t node, std::size_t at) { return nodes_[node].offset < at; });
+  if (found == byOffset_.end() || nodes_[*found].offset != offset) return {};
+  return Item(*this, *found);
 }
 
 Syntax::Line Syntax::line(const Source& source, std::size_t at) {

@@ -101,7 +101,7 @@ class Syntax {
 
   /// All items of the file, as one block.
   Item root() const;
-  /// The outermost item that begins there.
+  /// The outermost item that begins there; the first of several that a loop has made.
   std::optional<Item> itemAt(std::size_t offset) const;
   std::span<const Node> nodes() const { return nodes_; }
   /// The syntax of the file itself, without what it includes.
@@ -138,7 +138,10 @@ class Syntax {
   /// A tree that replace() took over has calls of kKey.
   void noteKeys() { hasKeys_ = true; }
   /// Takes another tree over the same source.
-  void replace(std::vector<Node> nodes) { nodes_ = std::move(nodes); }
+  void replace(std::vector<Node> nodes) {
+    nodes_ = std::move(nodes);
+    byOffset_.clear();
+  }
   /// For nodes of words that no file has: what such a node holds as its number.
   double spell(std::string word) {
     spelled_.push_back(std::move(word));
@@ -214,6 +217,7 @@ class Syntax {
 
   std::deque<Source> sources_;  // the file itself, then what it includes
   std::vector<Node> nodes_;
+  mutable std::vector<std::uint32_t> byOffset_;  ///< nodes in the order of the text; made by itemAt()
   std::deque<std::string> spelled_;
   std::vector<Frame> frames_;
   std::vector<Use> uses_;
@@ -234,6 +238,7 @@ class Item {
  public:
   Item(const Syntax& syntax, std::uint32_t index) : syntax_(&syntax), index_(index) {}
 
+  const Syntax& syntax() const { return *syntax_; }
   std::uint32_t index() const { return index_; }  ///< index of its node
   Kind kind() const { return node().kind; }
   bool is(Kind kind) const { return node().kind == kind; }

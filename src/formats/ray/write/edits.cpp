@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/match.h"
+#include "base/text.h"
 #include "geometry/field_value.h"
 #include "geometry/shapes/solids/csg_tree.h"
 
@@ -58,6 +59,16 @@ void changeListed(TextEdits& edits, const Item& block, const std::vector<AnyFiel
 
 }  // namespace
 
+bool isComputed(const Item& value) {
+  if (!value.syntax().usesLanguage()) return false;
+  if (value.is(Kind::number)) {
+    const auto read = parseNumber(value.source());
+    return !read || read->length != value.source().size();
+  }
+  if (!value.is(Kind::tuple) || value.count() == 0) return false;
+  return (*value.begin()).offset() == value.offset() || !value.source().starts_with('(');
+}
+
 std::optional<Item> fieldOf(const Item& block, std::string_view keyword) {
   std::optional<Item> found;
   for (const Item item : block)
@@ -76,6 +87,7 @@ TextEdits::TextEdits(const Syntax& syntax) : syntax_(syntax), source_(syntax.sou
 }
 
 void TextEdits::replace(std::size_t begin, std::size_t end, std::string text) {
+  if (end > source_.size()) throw Error(Fault::scene, syntax_.shortPlace(begin), "it stands in another file");
   edits_.push_back({begin, end, broken(text)});
 }
 
@@ -86,6 +98,10 @@ void TextEdits::change(const Item& value, const std::string& text) {
     const std::string source(now.source());
     if (isKey(old)) {
       lostKeys_.push_back(old.offset());
+      return replace(old, source);
+    }
+    if (isComputed(old)) {
+      lostExpressions_.push_back(old);
       return replace(old, source);
     }
     if (old.is(Kind::number)) {

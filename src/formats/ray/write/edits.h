@@ -16,6 +16,9 @@ namespace trace::rayfile {
 /// The place behind the item.
 inline std::size_t endOf(const Item& item) { return item.offset() + item.source().size(); }
 
+/// Whether a number or list is the value of a name or an expression, and stands nowhere as it is.
+bool isComputed(const Item& value);
+
 /// The last field of that keyword in a block, or its synonym, which is the one that counts.
 std::optional<Item> fieldOf(const Item& block, std::string_view keyword);
 
@@ -25,6 +28,7 @@ class TextEdits {
 
   const Syntax& syntax() const { return syntax_; }
 
+  /// Throws Error(Fault::scene) for a place that is not in the file itself, but in one that it includes.
   void replace(std::size_t begin, std::size_t end, std::string text);
   void replace(const Item& item, std::string text) {
     replace(item.offset(), item.offset() + item.source().size(), std::move(text));
@@ -47,6 +51,8 @@ class TextEdits {
 
   /// Values of `key(...)` that became a number or list of numbers.
   const std::vector<std::size_t>& lostKeys() const { return lostKeys_; }
+  /// Names and expressions that became a value.
+  const std::vector<Item>& lostExpressions() const { return lostExpressions_; }
 
   bool empty() const { return edits_.empty() && fields_.empty() && appended_.empty(); }
   std::string text() const { return text(0, syntax_.source().size()) + tail(); }
@@ -75,6 +81,7 @@ class TextEdits {
   std::map<std::size_t, std::pair<Item, std::vector<std::string>>> fields_;
   std::string appended_;
   std::vector<std::size_t> lostKeys_;
+  std::vector<Item> lostExpressions_;
 };
 
 /// The text with line breaks after fields where a line would be too long; `indent` begins the new ones.

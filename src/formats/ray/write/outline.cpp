@@ -56,6 +56,7 @@ std::optional<TransformStep> stepOf(const Item& call) {
                     : *kind == TransformStep::Kind::rotate    ? n == 4 && rows == 0
                                                               : (n == 1 || n == 3) && rows == 0;
   if (!fits) return {};
+  if (*kind == TransformStep::Kind::rotate && call.syntax().isOfKind()) step.numbers[3] *= kPi / 180;
   return step;
 }
 

@@ -26,8 +26,9 @@ namespace fs = std::filesystem;
 
 constexpr int kMostRounds = 4;
 
+/// Lights of the kind of file have none.
 bool samePlace(const SourcePlace& a, const SourcePlace& b) {
-  return a.file == b.file && a.line == b.line && a.column == b.column && a.line > 0;
+  return a.file == b.file && a.line == b.line && a.column == b.column;
 }
 
 /// Which thing of `before` each of `after` is, by its place in the text: the k-th of several at one place.
@@ -78,6 +79,10 @@ void breakUpChanged(const Reading& now, Wanted& wanted, Messages& messages) {
   for (std::size_t first = 0; first < from.objects.size();) {
     std::size_t end = first + 1;
     while (end < from.objects.size() && samePlace(from.objects[end].place, from.objects[first].place)) ++end;
+    if (from.objects[first].place.file != now.syntax->file() || from.objects[first].place.line < 1) {
+      first = end;  // an included file has them
+      continue;
+    }
     bool differs = false, left = false;
     const std::size_t offset = now.syntax->offsetOf(from.objects[first].place);
     const bool single = end - first == 1 && outline.find(offset) != nullptr;
@@ -172,15 +177,16 @@ class Patch {
     if (!takeOver(*read_.scene, now->scene, wanted)) return {};
     breakUpChanged(*now, wanted, lost_);
     noteUnused(edited, now->scene.materials.size());
-    std::set<std::size_t> rewrite;
+    Anew anew;
     for (int round = 0; !says(*now, wanted); ++round) {
       if (round == kMostRounds) return {};
-      const std::string text = changedText(*now, wanted, rewrite, lost_);
-      noteRewritten(*now, rewrite);
+      const std::string text = changedText(*now, wanted, anew, lost_);
+      noteRewritten(*now, anew);
       now = std::make_unique<Reading>(read_.file, text, read_.time);
       const Scene &is = now->scene, &to = wanted.scene;
       if (is.objects.size() != to.objects.size() || is.lights.size() != to.lights.size()) return {};
-      rewrite = round > 0 ? wrongObjects(is, to) : std::set<std::size_t>();
+      anew = {};
+      if (round > 0) anew = {wrongObjects(is, to), wrongLights(is, to)};
       wanted.materials = MaterialMap(now->scene, wanted.scene).take();
       for (std::size_t i = 0; i < wanted.objects.size(); ++i) wanted.objects[i] = i;
       for (std::size_t i = 0; i < wanted.lights.size(); ++i) wanted.lights[i] = i;
@@ -213,7 +219,7 @@ class Patch {
   /// Does a text that says the one say the other?
   static bool sameScene(const Scene& is, const Scene& to) {
     return is.objects.size() == to.objects.size() && is.lights.size() == to.lights.size() &&
-           wrongObjects(is, to).empty() && sameButObjects(is, to);
+           wrongObjects(is, to).empty() && sameButObjects(is, to) && sameGroups(is, to);
   }
 
  private:
@@ -224,12 +230,27 @@ class Patch {
     return wrong;
   }
 
+  static bool sameGroups(const Scene& is, const Scene& to) {
+    const auto same = [&](const Group& a, const Group& b) {
+      return a.uses == b.uses &&
+             std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(),
+                        [&](const Object& x, const Object& y) { return sameObject(is, x, to, y); });
+    };
+    return is.uses == to.uses &&
+           std::equal(is.groups.begin(), is.groups.end(), to.groups.begin(), to.groups.end(), same);
+  }
+
+  static std::set<std::size_t> wrongLights(const Scene& is, const Scene& to) {
+    std::set<std::size_t> wrong;
+    for (std::size_t i = 0; i < is.lights.size(); ++i)
+      if (!(is.lights[i].light == to.lights[i].light && is.lights[i].links == to.lights[i].links))
+        wrong.insert(i);
+    return wrong;
+  }
+
   static bool sameButObjects(const Scene& is, const Scene& to) {
     return is.camera == to.camera && is.background == to.background && sameSettings(is, to) &&
-           std::equal(is.lights.begin(), is.lights.end(), to.lights.begin(),
-                      [](const LightSource& a, const LightSource& b) {
-                        return a.light == b.light && a.links == b.links;
-                      });
+           wrongLights(is, to).empty();
   }
 
   static void addMaterials(const Shape& shape, std::uint32_t material, std::set<std::uint32_t>& used) {
@@ -247,8 +268,10 @@ class Patch {
                        nameOf(edited.materials[i], i) + " is not kept: no object has it");
   }
 
-  void noteRewritten(const Reading& now, const std::set<std::size_t>& rewrite) {
-    for (std::size_t i : rewrite)
+  void noteRewritten(const Reading& now, const Anew& anew) {
+    for (std::size_t i : anew.lights)
+      lost_.warn(now.scene.lights[i].place, "this light is rewritten: comments within it are lost");
+    for (std::size_t i : anew.objects)
       lost_.warn(now.scene.objects[i].place,
                  "this object is rewritten: comments and nesting within it are lost");
   }
@@ -312,10 +335,10 @@ Rewritten rewriteRay(const SceneText& read, const Scene& edited, const std::stri
   std::optional<std::string> text;
   try {
     const rayfile::Syntax syntax(read.file, *read.bytes);
-    if (!syntax.usesLanguage() && !syntax.isOfKind() && !rayfile::speaksStudents(syntax))
+    if (rayfile::Patch::sameScene(*read.scene, edited))
+      text = *read.bytes;
+    else if (!rayfile::speaksStudents(syntax))
       text = rayfile::Patch(read, lost, others).text(edited);
-    else if (rayfile::Patch::sameScene(*read.scene, edited))
-      text = *read.bytes;  // else one place of the text may have made many objects
   } catch (const Error&) {
     text.reset();  // a file that it names is gone, or the reader does not take the text
   }

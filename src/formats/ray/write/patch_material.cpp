@@ -38,9 +38,10 @@ struct Mirror {
 /// The start of a block: the material that it inherits, or names of the library.
 Material startOf(const Item& block, const Material& inherited) {
   const std::optional<Item> named = fieldOf(block, kLibrary);
-  const std::optional<Material> found =
-      named ? libraryMaterial(named->value().text()) : std::optional<Material>();
-  return found ? *found : inherited;
+  std::optional<Material> found = named ? libraryMaterial(named->value().text()) : std::optional<Material>();
+  if (!found) return inherited;
+  if (block.syntax().isOfKind()) found->sides = inherited.sides;  // as the reader has it
+  return *found;
 }
 
 /// The block gives the field itself.

@@ -7,6 +7,7 @@
 #include "formats/ray/language/language.h"
 #include "formats/ray/read/settings.h"
 #include "formats/ray/write/patch.h"
+#include "formats/ray/write/same.h"
 #include "formats/text_front.h"
 
 namespace trace::rayfile {
@@ -126,6 +127,7 @@ class SettingsChange {
         folder_(std::filesystem::absolute(from.file.empty() ? "." : from.file).parent_path()),
         blocks_(blocksOf(edits.syntax(), kSettings)),
         choices_(from.choices),
+        wanted_(to.choices),
         to_(resolve({to.choices})) {}
 
   void run() {
@@ -143,7 +145,9 @@ class SettingsChange {
     return below.empty() || *below.begin() == ".." ? file : below.generic_string();
   }
   void change(const Option& option) {
-    if (sameValue(option, resolve({choices_}), to_)) return;
+    const bool isNamedAnew =
+        to_.quality != Quality::none && names(wanted_, option.name) && !names(choices_, option.name);
+    if (!isNamedAnew && sameValue(option, resolve({choices_}), to_)) return;
     std::string value = option.get(to_);
     if (option.kind == Option::Kind::file && value != "none")
       value = std::filesystem::absolute(value).lexically_normal().generic_string();
@@ -165,6 +169,7 @@ class SettingsChange {
   std::filesystem::path folder_;  // folder of the scene
   std::vector<Item> blocks_;
   std::vector<Choice> choices_;  ///< choices in the text so far
+  const std::vector<Choice>& wanted_;
   Settings to_;
   std::string lines_;
 };

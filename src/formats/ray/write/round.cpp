@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/find_field.h"
 #include "base/text.h"
+#include "formats/ray/read/light.h"
 #include "formats/ray/write/edits.h"
 #include "formats/ray/write/outline.h"
 #include "formats/ray/write/patch_material.h"
@@ -33,13 +35,13 @@ bool isBulk(const Shape& shape) { return shape.is<Mesh>() || shape.is<HeightFiel
 
 class Round {
  public:
-  Round(const Reading& now, const Wanted& wanted, std::set<std::size_t>& rewrite, Messages& messages)
+  Round(const Reading& now, const Wanted& wanted, Anew& anew, Messages& messages)
       : syntax_(*now.syntax),
         notes_(now.notes),
         from_(now.scene),
         wanted_(wanted),
         to_(wanted.scene),
-        rewrite_(rewrite),
+        anew_(anew),
         messages_(messages),
         outline_(syntax_),
         edits_(syntax_),
@@ -51,9 +53,12 @@ class Round {
     for (std::size_t i = 0; i < from_.objects.size(); ++i) object(i);
     materials_.run();
     for (std::size_t i = 0; i < to_.lights.size(); ++i)
-      if (wanted_.lights[i] == Wanted::kNew) append(writtenLight(to_.lights[i].light));
+      if (wanted_.lights[i] == Wanted::kNew) append(lightText(to_.lights[i]));
     for (std::size_t i = 0; i < to_.objects.size(); ++i)
       if (wanted_.objects[i] == Wanted::kNew) append(newObject(to_.objects[i]));
+    for (const Item& lost : edits_.lostExpressions())
+      messages_.warn(syntax_.shortPlace(lost.offset()),
+                     "\"" + std::string(lost.source()) + "\" is replaced by what was typed for it here");
     for (std::size_t offset : edits_.lostKeys())
       messages_.warn(syntax_.shortPlace(offset),
                      "the keys of this value are replaced by what was typed for it",
@@ -67,6 +72,15 @@ class Round {
     return found == all.end() || *found != what ? nullptr : &*found;
   }
 
+  /// Nothing for a place in a file that this one includes.
+  std::optional<std::size_t> offsetOf(const SourcePlace& place) const {
+    if (place.file != syntax_.file() || place.line < 1) return {};
+    return syntax_.offsetOf(place);
+  }
+  TransformStep asSaid(const TransformStep& step) const {
+    return syntax_.isOfKind() ? inDegrees(step) : step;
+  }
+
   void append(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
     edits_.append("\n" + text + "\n");
@@ -75,41 +89,69 @@ class Round {
   // --- lights ---
 
   void light(std::size_t index) {
-    const std::optional<Item> call = syntax_.itemAt(syntax_.offsetOf(from_.lights[index].place));
-    if (!call) return;
     const std::size_t* mine = find(wanted_.lights, index);
-    if (!mine) return edits_.erase(*call);
+    const LightSource* now =
+        mine ? &to_.lights[static_cast<std::size_t>(mine - wanted_.lights.data())] : nullptr;
+    const LightSource& before = from_.lights[index];
+    const bool stays = now && now->light == before.light && now->links == before.links;
+    if (before.place.line < 1) {  // by the kind of file: it is there only as long as nobody names one
+      if (now && !(stays && wanted_.lights.size() == 1)) append(lightText(*now));
+      return;
+    }
+    const std::optional<std::size_t> offset = offsetOf(before.place);
+    const std::optional<Item> call = offset ? syntax_.itemAt(*offset) : std::nullopt;
+    if (!call) {
+      if (!stays) throw Error(Fault::scene, before.place, "this light has no text here");
+      return;
+    }
+    if (!now) return edits_.erase(*call);
     if (!changedLights_.insert(call->offset()).second) return;  // a copy in rows; the first speaks for all
-    const LightSource& now = to_.lights[static_cast<std::size_t>(mine - wanted_.lights.data())];
-    const Light &was = from_.lights[index].light, &is = now.light;
-    changeFields(edits_, call->value(), from_.lights[index].links, now.links);
+    const Light &was = before.light, &is = now->light;
+    changeFields(edits_, call->value(), before.links, now->links);
     if (was == is) return;
-    if (&was.type() == &is.type())
-      changeFields(edits_, call->value(), was, is);
-    else
-      edits_.replace(*call, writtenLight(is));
+    if (&was.type() != &is.type() || anew_.lights.contains(index))
+      return edits_.replace(*call, lightText(*now));
+    changeFields(edits_, call->value(), was, is);
+    const Color *color = findValue<Color>(was, "color"), *other = findValue<Color>(is, "color");
+    if (isInWatts(is) && !(*color == *other))
+      sayField(edits_, call->value(), kWatts, written(kPowerOfOne, 0));
+  }
+
+  /// Its colour is one for the watts that a file of the kind gives, or for the distance of what is looked at.
+  bool isInWatts(const Light& light) const {
+    return syntax_.isOfKind() && light.type().starts == LightOrigin::ball;
+  }
+  std::string lightText(const LightSource& source) const {
+    std::string text = writtenLight(source);
+    if (isInWatts(source.light))
+      text.insert(text.find("{\n") + 2, "  " + std::string(kWatts) + " = " + written(kPowerOfOne, 0) + ";\n");
+    while (text.back() == '\n') text.pop_back();
+    return text;
   }
 
   // --- objects ---
 
   void object(std::size_t index) {
-    const std::size_t offset = syntax_.offsetOf(from_.objects[index].place);
-    const PlacedCall* placed = outline_.find(offset);
     const std::size_t* mine = find(wanted_.objects, index);
-    if (!mine) return drop(placed ? placed->whole() : whole(offset));
+    const Object& was = from_.objects[index];
+    const Object* is = mine ? &to_.objects[static_cast<std::size_t>(mine - wanted_.objects.data())] : nullptr;
+    const std::optional<std::size_t> offset = offsetOf(was.place);
+    const bool hasManyPlaces = !offset || syntax_.usesLanguage();  // one text may have made several things
+    if (hasManyPlaces && is && sameObject(from_, was, to_, *is)) return;
+    if (!offset) throw Error(Fault::scene, was.place, "this object has no text here");
+    const PlacedCall* placed = outline_.find(*offset);
+    if (!is) return drop(placed ? placed->whole() : whole(*offset));
     if (!placed || !standsAlone(from_, index)) return;  // with others; they stay as they are
-    const Object& is = to_.objects[static_cast<std::size_t>(mine - wanted_.objects.data())];
-    const bool fits = !rewrite_.contains(index) && change(*placed, partOf(from_.objects[index]), partOf(is));
-    if (!fits) return anew(index, *placed, is);
-    changeFields(edits_, placed->call.value(), from_.objects[index].links, is.links);
+    const bool fits = !anew_.objects.contains(index) && change(*placed, partOf(was), partOf(*is));
+    if (!fits) return anew(index, *placed, *is);
+    changeFields(edits_, placed->call.value(), was.links, is->links);
   }
 
   /// A node that is not in the outline, with the transforms around it.
   Item whole(std::size_t offset) const {
     Item item = *syntax_.itemAt(offset);
     for (const Node& node : syntax_.nodes()) {  // outer calls come first
-      if (node.offset >= offset) break;
-      if (node.kind != Kind::call) continue;
+      if (node.offset >= offset || node.kind != Kind::call) continue;
       const Item call(syntax_, static_cast<std::uint32_t>(&node - syntax_.nodes().data()));
       Item inner = call;
       while (stepOf(inner)) inner = childOf(inner);
@@ -126,7 +168,7 @@ class Round {
 
   /// The node alone, in the place where it stood.
   void anew(std::size_t index, const PlacedCall& placed, const Object& is) {
-    rewrite_.insert(index);
+    anew_.objects.insert(index);
     Affine outer = placed.outer;
     for (std::size_t i = 0; i < placed.direct; ++i)
       if (const std::optional<TransformStep> step = stepOf(placed.own[i])) outer = outer * affineOf(*step);
@@ -262,14 +304,15 @@ class Round {
     if (more == 0) return true;
     const Item& outermost = placed.own.empty() ? placed.call : placed.own.front();
     std::string heads;
-    for (std::size_t i = 0; i < more; ++i) heads += head((*steps)[i], 0);
+    for (std::size_t i = 0; i < more; ++i) heads += head(asSaid((*steps)[i]), 0);
     edits_.insert(outermost.offset(), heads);
     edits_.insert(endOf(outermost), std::string(more, ')'));
     return true;
   }
 
-  void changeStep(const Item& call, const TransformStep& was, const TransformStep& is) {
-    if (was == is) return;
+  void changeStep(const Item& call, const TransformStep& was, const TransformStep& becomes) {
+    if (was == becomes) return;
+    const TransformStep is = asSaid(becomes);
     if (was.kind != is.kind) {
       const Item child = childOf(call);
       std::size_t last = call.offset();
@@ -285,16 +328,25 @@ class Round {
       return edits_.replace(*call.value().begin(), text);
     }
     std::size_t next = 0;
-    const auto changeNumber = [&](const Item& item) {
-      edits_.change(item, written(is.numbers[next], 0));
-      ++next;
-    };
-    for (const Item item : call.value()) {
-      if (next == is.numbers.size()) break;
-      if (item.is(Kind::tuple))
+    for (auto at = call.value().begin(); next < is.numbers.size();) {
+      const Item item = *at;
+      if (item.is(Kind::tuple)) {
         changeRow(item, is, next);
-      else
-        changeNumber(item);
+        ++at;
+        continue;
+      }
+      // Three numbers that one text gives: a point in brackets, or the name of one.
+      std::string text;
+      std::size_t count = 0;
+      bool differs = false;
+      for (; next < is.numbers.size() && (*at).offset() == item.offset(); ++at, ++next, ++count) {
+        differs = differs || asSaid(was).numbers[next] != is.numbers[next];
+        text += (count > 0 ? ", " : "") + written(is.numbers[next], 0);
+      }
+      if (count == 1)
+        edits_.change(item, text);
+      else if (differs)
+        edits_.replace(item, "(" + text + ")");
     }
   }
 
@@ -322,7 +374,7 @@ class Round {
   std::string copyOf(const Item& call, const Object& object, const std::string& material) {
     const std::vector<TransformStep> steps = stepsOf(object.worldFromObject);
     std::string text;
-    for (const TransformStep& step : steps) text += head(step, 0);
+    for (const TransformStep& step : steps) text += head(asSaid(step), 0);
     const Item block = call.value();
     const std::optional<Item> shared = fieldOf(block, "shared");
     const std::string name = written(object.name, 0);
@@ -350,7 +402,7 @@ class Round {
   const Scene& from_;
   const Wanted& wanted_;
   const Scene& to_;
-  std::set<std::size_t>& rewrite_;
+  Anew& anew_;
   Messages& messages_;
   Outline outline_;
   TextEdits edits_;
@@ -375,9 +427,8 @@ bool standsAlone(const Scene& scene, std::size_t object) {
   return !same(object + 1) && (object == 0 || !same(object - 1));
 }
 
-std::string changedText(const Reading& now, const Wanted& wanted, std::set<std::size_t>& rewrite,
-                        Messages& messages) {
-  return Round(now, wanted, rewrite, messages).run();
+std::string changedText(const Reading& now, const Wanted& wanted, Anew& anew, Messages& messages) {
+  return Round(now, wanted, anew, messages).run();
 }
 
 }  // namespace trace::rayfile

@@ -37,10 +37,13 @@ struct Wanted {
   std::vector<std::optional<Material>> materials;
 };
 
-/// The changed text. `rewrite` are objects of the present text to be written anew; those are added for which
-/// there is no other way. Warnings name `file`.
-std::string changedText(const Reading& now, const Wanted& wanted, std::set<std::size_t>& rewrite,
-                        Messages& messages);
+/// Things of the present text to be written anew, by their numbers.
+struct Anew {
+  std::set<std::size_t> objects, lights;
+};
+
+/// The changed text. To `anew` objects are added for which there is no other way. Warnings name `file`.
+std::string changedText(const Reading& now, const Wanted& wanted, Anew& anew, Messages& messages);
 
 /// Do the objects stand in one place of the text each, so that one can be changed without the others?
 bool standsAlone(const Scene& scene, std::size_t object);

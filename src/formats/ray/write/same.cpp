@@ -58,8 +58,18 @@ bool sameObject(const Scene& a, const Object& x, const Scene& b, const Object& y
          nearlyEqual(x.worldFromObject, y.worldFromObject) && sameShape(a, x.shape, b, y.shape);
 }
 
+bool names(const std::vector<Choice>& choices, std::string_view option) {
+  return std::any_of(choices.begin(), choices.end(), [&](const Choice& c) { return c.option == option; });
+}
+
 bool sameSettings(const Scene& a, const Scene& b) {
   const Settings x = resolve({a.choices}), y = resolve({b.choices});
+  // A quality gives values of its own to what nobody names.
+  if (y.quality != Quality::none &&
+      std::any_of(b.choices.begin(), b.choices.end(), [&](const Choice& choice) {
+        return findOption(choice.option).repeats != Repeats::nothing && !names(a.choices, choice.option);
+      }))
+    return false;
   return std::all_of(options().begin(), options().end(), [&](const Option& option) {
     return option.repeats == Repeats::nothing || sameValue(option, x, y);
   });

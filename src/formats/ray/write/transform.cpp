@@ -325,6 +325,13 @@ Affine affineOf(const Step& step) {
   return {};
 }
 
+Step inDegrees(Step step) {
+  constexpr Real kDigits = 1e11;  // what rounding leaves of an angle
+  if (step.kind == Form::rotate)
+    step.numbers[3] = std::round(step.numbers[3] * (180 / kPi) * kDigits) / kDigits;
+  return step;
+}
+
 Affine product(const Steps& steps) {
   Affine m;
   for (const Step& step : steps) m = m * affineOf(step);

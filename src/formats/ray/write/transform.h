@@ -15,10 +15,13 @@ struct TransformStep {
   enum class Kind { translate, rotate, scale, matrix };
 
   Kind kind = Kind::translate;
-  std::vector<Real> numbers{};  ///< 3, 4, 1 or 3, and the 12 of three rows
+  std::vector<Real> numbers{};  ///< 3, 4 with the angle in radians, 1 or 3, and the 12 of three rows
 
   bool operator==(const TransformStep&) const = default;
 };
+
+/// The step as a file that begins with `Trace 1` says it, whose angles are in degrees.
+TransformStep inDegrees(TransformStep step);
 
 /// As the reader makes it.
 Affine affineOf(const TransformStep& step);

@@ -63,8 +63,8 @@ class Writer {
     writeObject(object);
     return std::move(out_);
   }
-  std::string write(const Light& light) {
-    writeLight(light, {});
+  std::string write(const LightSource& source) {
+    writeLight(source.light, source.links);
     return std::move(out_);
   }
 
@@ -420,7 +420,7 @@ std::string writtenObject(const Scene& scene, const Object& object, const Materi
   return Writer(scene, object, material).write(object);
 }
 
-std::string writtenLight(const Light& light) {
+std::string writtenLight(const LightSource& light) {
   const Scene none;
   return Writer(none, 0).write(light);
 }

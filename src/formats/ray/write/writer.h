@@ -21,7 +21,7 @@ using MaterialText = std::function<std::string(std::uint32_t material, bool whol
 
 /// Single parts of a scene, as they stand in a file.
 std::string writtenObject(const Scene& scene, const Object& object, const MaterialText& material);
-std::string writtenLight(const Light& light);
+std::string writtenLight(const LightSource& light);
 
 }  // namespace rayfile
 
