@@ -25,9 +25,10 @@ class Bvh {
   static constexpr int kLeafSize = 4;
   static constexpr std::uint32_t kNoItem = 0xffffffffu;
 
-  /// How many items a leaf may hold: one, which is the leaf's number, where each costs a test of its own;
-  /// kLeafSize where they are tested together.
+  /// How many items a leaf may hold: one, where each costs a test of its own; kLeafSize where they are tested
+  /// together, as blocks of kLeafPlaces (bvh_node.h).
   enum class Leaves { single, together };
+  static constexpr std::uint32_t kLeafPlaces = 5;
 
   Bvh() = default;
   /// Over items 0 .. boxes.size() - 1. Empty boxes are left out. The tree is the same for any number of
@@ -59,6 +60,8 @@ class Bvh {
     return std::span<const std::uint32_t, kLeafSize>(items_.data() + std::size_t{number} * kLeafSize,
                                                      kLeafSize);
   }
+  /// Frees the memory of items(), for an owner who keeps the leaves' items elsewhere and never asks again.
+  void forgetItems() { items_ = {}; }
   std::uint32_t leafCount() const { return static_cast<std::uint32_t>(items_.size() / kLeafSize); }
   const HugeVector<BvhNode>& nodes() const { return nodes_; }
   std::size_t bytes() const {

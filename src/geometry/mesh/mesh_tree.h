@@ -17,15 +17,19 @@
 
 namespace trace {
 
-/// The corners of four triangles: corner, axis, lane. Unused lanes hold NaN and are never hit.
-struct alignas(16) TriangleBlock {
+/// Four triangles: their corners by corner, axis, lane, and their numbers, so that a hit reads no other
+/// memory. Unused lanes hold NaN and are never hit. Aligned so that a block lies in three cache lines.
+struct alignas(32) TriangleBlock {
   float corner[3][3][4];
+  std::uint32_t triangle[4];
 
   Corners corners(std::size_t lane) const {
     const auto at = [&](int i) { return Vec3{corner[i][0][lane], corner[i][1][lane], corner[i][2][lane]}; };
     return {at(0), at(1), at(2)};
   }
 };
+
+static_assert(sizeof(TriangleBlock) == Bvh::kLeafPlaces * kPlaceBytes);
 
 struct MeshHit {
   std::uint32_t triangle = Bvh::kNoItem;
@@ -36,7 +40,6 @@ struct MeshHit {
 struct MeshArrays {
   const BvhNode* nodes;
   const TriangleBlock* blocks;
-  const std::uint32_t* triangles;  ///< four for each block
   BvhExtent extent;
 };
 
@@ -51,7 +54,7 @@ struct MeshQuery {
   std::uint64_t blocks = 0;  ///< tested
 
   /// The exact test of a lane of a block.
-  bool passes(std::uint32_t block, std::size_t lane) const;
+  bool passes(const TriangleBlock& block, std::size_t lane) const;
 };
 
 /// The ways through a mesh; `Nodes`, NodeCount or NodeWatch, hears of the nodes.
