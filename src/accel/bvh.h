@@ -50,6 +50,11 @@ class Bvh {
   void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst, Nodes& nodes,
              Visit&& visit, std::uint32_t skip = kNoItem) const;
 
+  /// Asks for several rays, nearer boxes first: calls visit(item, lanes), which returns the lanes whose
+  /// tMost it has lowered. Fast where the rays go the same way.
+  template <class Visit>
+  void query(const RayPacket& rays, NodeCount& nodes, Visit&& visit) const;
+
   /// The best for the machine if not set.
   void setKernel(const BvhKernel& kernel) { kernel_ = &kernel; }
 
@@ -96,6 +101,21 @@ void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bo
       nodes_.data(), extent_, origin, direction, tMost, nearestFirst, nodes,
       [](void* context, std::uint32_t item) { return (*static_cast<V*>(context))(item); },
       const_cast<void*>(static_cast<const void*>(&visit)), skip);
+}
+
+template <class Visit>
+void Bvh::query(const RayPacket& rays, NodeCount& nodes, Visit&& visit) const {
+  if (nodes_.empty()) {
+    for (std::uint32_t item : items_) visit(item, rays.lanes);
+    return;
+  }
+  using V = std::remove_reference_t<Visit>;
+  kernel_->together(
+      nodes_.data(), extent_, rays, nodes,
+      [](void* context, std::uint32_t item, unsigned lanes) {
+        return (*static_cast<V*>(context))(item, lanes);
+      },
+      const_cast<void*>(static_cast<const void*>(&visit)));
 }
 
 }  // namespace trace

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "math/vec.h"
+
 namespace trace {
 
 /// Eight children: their boxes, lane by lane, and what they are, which lies beside planes and
@@ -43,6 +45,16 @@ struct NodeWatch {
   std::uint32_t owner = kTop;  ///< whose hierarchy is queried, as the caller numbers them
   /// Within a placement of a group: its number, and what is added to those of its objects.
   std::uint32_t placement = kTop, shift = 0;
+};
+
+/// Rays that go through a hierarchy together, wherever they lie.
+struct RayPacket {
+  static constexpr unsigned kRays = 8;
+
+  const Vec3* origin[kRays];
+  const Vec3* direction[kRays];
+  const double* tMost[kRays];
+  unsigned lanes = 0;  ///< bit i: there is a ray i
 };
 
 /// The whole of a hierarchy.

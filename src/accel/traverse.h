@@ -5,7 +5,6 @@
 
 #include "accel/bvh_node.h"
 #include "accel/simd.h"
-#include "math/vec.h"
 
 namespace trace::simd {
 namespace {  // each including file has its own, compiled with its own flags
@@ -113,11 +112,12 @@ inline Pending pending(float near, std::uint32_t child) {
 }
 
 /// Calls visit(place of a leaf, limit), which returns true to end and may lower `limit`, for each leaf whose
-/// box the ray may hit before it. kNearestFirst: nearer boxes first, for the closest hit; else those first
-/// that are fullest of items, which the builder has put into the lanes 0, 7, 6, ... of a node.
+/// box the ray may hit before it, in the branch of the node `next`. kNearestFirst: nearer boxes first, for
+/// the closest hit; else those first that are fullest of items, which the builder has put into the lanes 0,
+/// 7, 6, ... of a node.
 template <bool kNearestFirst, class Nodes, class VisitLeaf>
 [[gnu::always_inline]] inline void traverse(const Places& places, const SlabRay& ray, float limit,
-                                            Nodes& visited, const VisitLeaf& visit) {
+                                            Nodes& visited, const VisitLeaf& visit, std::uint32_t next = 0) {
   Pending stack[8 * BvhNode::kMostDepth];  // seven waiting siblings for each level
   Pending* top = stack;
 
@@ -129,7 +129,6 @@ template <bool kNearestFirst, class Nodes, class VisitLeaf>
   // same, but a division later.)
   const unsigned backward = signs(ray.direction);
   const std::size_t side[3] = {backward << 3 & 8, 16 + (backward << 2 & 8), 32 + (backward << 1 & 8)};
-  std::uint32_t next = 0;
   for (;;) {
     if (next & BvhNode::kLeaf) {
       if (visit(next & ~BvhNode::kLeaf, limit)) return;

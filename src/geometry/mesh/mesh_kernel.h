@@ -2,7 +2,7 @@
 // instruction set (mesh_kernel_*.cpp), like accel/traverse.h.
 #pragma once
 
-#include "accel/traverse.h"
+#include "accel/packet.h"
 #include "geometry/mesh/mesh_tree.h"
 
 namespace trace::simd {
@@ -124,17 +124,49 @@ inline bool accepted(MeshQuery& q, const TriangleBlock& block, unsigned lane, co
   return q.accept(q.context, candidate);
 }
 
+/// Keeps the nearest of the hits, if that is nearer than the best so far.
+[[gnu::always_inline]] inline void keepNearest(MeshQuery& q, const TriangleBlock& block,
+                                               const BlockHits& hits) {
+  for (unsigned met = hits.met; met != 0; met &= met - 1) {
+    const auto lane = static_cast<unsigned>(__builtin_ctz(met));
+    const double t = hits.t[lane], best = q.best.hit.t;
+    if (t > best || (t == best && block.triangle[lane] >= q.best.triangle)) continue;
+    if (accepted(q, block, lane, hits)) fill(q.best, block, lane, hits);
+  }
+}
+
 template <class Nodes>
 void closestInMesh(MeshQuery& q, Nodes& nodes) {
   blocksMet<true>(q, nodes, [&](const TriangleBlock& block, const BlockHits& hits) {
-    for (unsigned met = hits.met; met != 0; met &= met - 1) {
-      const auto lane = static_cast<unsigned>(__builtin_ctz(met));
-      const double t = hits.t[lane], best = q.best.hit.t;
-      if (t > best || (t == best && block.triangle[lane] >= q.best.triangle)) continue;
-      if (accepted(q, block, lane, hits)) fill(q.best, block, lane, hits);
-    }
+    keepNearest(q, block, hits);
     return false;
   });
+}
+
+void closestTogetherInMesh(MeshPacket& p, NodeCount& nodes) {
+  RayPacket rays;
+  rays.lanes = p.lanes;
+  for (unsigned lanes = p.lanes; lanes != 0; lanes &= lanes - 1) {
+    const auto i = static_cast<unsigned>(__builtin_ctz(lanes));
+    rays.origin[i] = &p.rays[i]->origin;
+    rays.direction[i] = &p.rays[i]->direction;
+    rays.tMost[i] = &p.best[i].hit.t;
+  }
+  const auto visit = [&](std::uint32_t place, unsigned lanes) {
+    const TriangleBlock& block = atPlace(p.mesh.blocks, place);
+    unsigned lowered = 0;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
+      ++p.blocks;
+      MeshQuery q{*p.rays[lane], p.mesh, p.best[lane]};
+      const BlockHits hits = BlockTest(q.ray, p.mesh.extent)(block, q.best.hit.t);
+      if (hits.met == 0) continue;
+      keepNearest(q, block, hits);
+      lowered |= 1u << lane;
+    }
+    return lowered;
+  };
+  queryTogether({p.mesh.nodes, p.mesh.blocks}, p.mesh.extent, rays, nodes, visit);
 }
 
 template <class Nodes>

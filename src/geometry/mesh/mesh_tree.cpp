@@ -64,4 +64,16 @@ MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce, int th
   bvh_.forgetItems();  // the blocks know them
 }
 
+void MeshTree::closest(const Ray* const* rays, MeshHit* best, unsigned lanes, MeshCounts<> counts) const {
+  for (unsigned lane = 0; lane < RayPacket::kRays; ++lane) {
+    if (!(lanes >> lane & 1)) continue;
+    best[lane].triangle = Bvh::kNoItem;
+    if (bvh_.nodes().empty()) closest(*rays[lane], best[lane], nullptr, counts);
+  }
+  if (bvh_.nodes().empty()) return;
+  MeshPacket packet{rays, arrays_, best, lanes};
+  kernel_.closestTogether(packet, counts.nodes);
+  counts.triangles += packet.blocks * Bvh::kLeafSize;
+}
+
 }  // namespace trace

@@ -57,6 +57,15 @@ struct MeshQuery {
   bool passes(const TriangleBlock& block, std::size_t lane) const;
 };
 
+/// The queries for the nearest hits along several rays; every hit counts.
+struct MeshPacket {
+  const Ray* const* rays;
+  const MeshArrays& mesh;
+  MeshHit* best;             ///< as in MeshQuery, for each ray
+  unsigned lanes;            ///< bit i: there is a ray i
+  std::uint64_t blocks = 0;  ///< tested, for each ray
+};
+
 /// The ways through a mesh; `Nodes`, NodeCount or NodeWatch, hears of the nodes.
 template <class Nodes>
 struct MeshWays {
@@ -70,6 +79,7 @@ struct MeshWays {
 struct MeshKernel {
   std::string_view name;
   std::tuple<MeshWays<NodeCount>, MeshWays<NodeWatch>> ways;
+  void (*closestTogether)(MeshPacket&, NodeCount&);
 };
 
 /// The kernels that this machine can run, the best first.
@@ -96,6 +106,10 @@ class MeshTree {
   /// likes all. Then `best` is the nearest, of several at the same t the triangle with the lowest number.
   template <class Accept, class Nodes>
   bool closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCounts<Nodes> counts) const;
+
+  /// Asks for the rays of those lanes together, which all hits please: `best` becomes the nearest of
+  /// each, or has no triangle. Fast where the rays go the same way.
+  void closest(const Ray* const* rays, MeshHit* best, unsigned lanes, MeshCounts<> counts) const;
 
   /// Calls visit(MeshHit), which returns true to end the query, for every hit at 0 < t < tMost, in any order.
   /// A triangle that the hierarchy holds in parts may be hit more than once.
