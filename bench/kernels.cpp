@@ -53,6 +53,8 @@ int run(int argc, char** argv) {
       ->delimiter(',');
   app.add_option("--size", plan.size, "pixels on a side of the picture")->check(CLI::Range(1, 16384));
   app.add_option("--embree", plan.embree, "configuration of Embree: isa=avx2 keeps it from AVX-512");
+  app.add_option("--kernel", plan.instructions,
+                 "avx512, avx2 or base: the mesh without a World, by that kernel");
   app.add_option("--json", json, "also write the numbers to this file");
   CLI11_PARSE(app, argc, argv);
 

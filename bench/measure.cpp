@@ -17,9 +17,9 @@ constexpr double kLeastSeconds = 0.03;  // a measurement repeats short ray sets 
 using Kernels = PerKernel<std::unique_ptr<Kernel>>;
 
 std::unique_ptr<Kernel> build(int index, const MeshHandle& mesh, const Plan& plan) {
-  return index == world
-             ? worldKernel(mesh)
-             : embreeKernel(mesh, index == robust ? EmbreeMode::robust : EmbreeMode::standard, plan.embree);
+  if (index == world)
+    return plan.instructions.empty() ? worldKernel(mesh) : meshKernel(mesh, plan.instructions);
+  return embreeKernel(mesh, index == robust ? EmbreeMode::robust : EmbreeMode::standard, plan.embree);
 }
 
 double mraysPerSecond(const Kernel& kernel, const RaySet& set, std::span<Answer> answers) {
@@ -100,6 +100,9 @@ MeshReport measure(const std::string& path, const Plan& plan, std::size_t triang
   report.size = view.size;
   const RaySet primary{"primary", false, primaryRays(view)};
   report.kinds.push_back(measureKind(kernels, primary, plan.passes));
+  RaySet packets{"primary_packets", false, primary.rays, true};
+  packets.rays.resize(packets.rays.size() / 8 * 8);
+  report.kinds.push_back(measureKind(kernels, packets, plan.passes));
   std::vector<Answer> answers(primary.rays.size());
   kernels[robust]->closest(primary.rays, answers);
   for (const RaySet& set : secondaryRays(view, *mesh, primary.rays, answers))

@@ -45,7 +45,8 @@ struct Plan {
   double scale = 1;  ///< scale of the mesh and its view
   int size = 0;      ///< pixels on a side; 0 takes the view's
   int builds = 3;
-  std::string embree{};  ///< configuration of its device
+  std::string embree{};        ///< configuration of its device
+  std::string instructions{};  ///< kernel for the mesh alone; empty: the World, by its best
 };
 
 /// Measures the mesh, resized to about so many triangles if that is not 0.

@@ -1,6 +1,7 @@
 // The rays that kernels are measured with, by kind, and the kernels' answers.
 //
 //   primary          from the eye through pixel centres, in blocks of 4 x 2 pixels
+//   primary_packets  the same rays, eight at a time
 //   bounce           one per primary hit, cosine-distributed about the normal that faces the eye, in the same
 //   order bounce_shuffled  the same rays in random order: nothing that a ray fetched helps the next one
 //   shadow           any-hit, from each primary hit that faces the light to 0.999 of the way to it
@@ -36,6 +37,7 @@ struct RaySet {
   std::string_view kind;
   bool anyHit = false;
   std::vector<BenchRay> rays;
+  bool together = false;  ///< eight at a time
 };
 
 std::vector<BenchRay> primaryRays(const View& view);

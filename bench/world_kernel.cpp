@@ -2,6 +2,9 @@
 // World; a faster call for one kind of ray is put to use here.
 #include <malloc.h>
 
+#include <array>
+#include <optional>
+
 #include "kernel.h"
 #include "render/world/world.h"
 #include "stopwatch.h"
@@ -13,6 +16,10 @@ Ray worldRay(const BenchRay& ray) { return {Vec3(ray.origin), Vec3(ray.direction
 
 std::optional<Found> closestHit(const World& world, const Ray& ray, Statistics& statistics) {
   return world.closest(ray, Faces::both, statistics);
+}
+
+Answer answerOf(const std::optional<Found>& found) {
+  return found ? Answer{static_cast<float>(found->t), static_cast<std::uint32_t>(found->part)} : Answer{};
 }
 
 bool anyHitBefore(const World& world, const Ray& ray, Real tMost, Statistics& statistics) {
@@ -51,10 +58,25 @@ class WorldKernel : public Kernel {
 
   void closest(std::span<const BenchRay> rays, std::span<Answer> answers) const override {
     Statistics statistics;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const auto found = closestHit(world_, worldRay(rays[i]), statistics);
-      answers[i] =
-          found ? Answer{static_cast<float>(found->t), static_cast<std::uint32_t>(found->part)} : Answer{};
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      answers[i] = answerOf(closestHit(world_, worldRay(rays[i]), statistics));
+  }
+
+  void closestOfPackets(std::span<const BenchRay> rays, std::span<Answer> answers) const override {
+    Statistics statistics;
+    for (std::size_t first = 0; first < rays.size(); first += RayPacket::kRays) {
+      std::array<Ray, RayPacket::kRays> packet;
+      std::array<const Ray*, RayPacket::kRays> asked;
+      std::array<Found, RayPacket::kRays> hits;
+      std::array<Found*, RayPacket::kRays> found;
+      for (std::size_t i = 0; i < packet.size(); ++i) {
+        packet[i] = worldRay(rays[first + i]);
+        asked[i] = &packet[i];
+        found[i] = &hits[i];
+      }
+      world_.closest(asked, Faces::both, statistics, found);
+      for (std::size_t i = 0; i < packet.size(); ++i)
+        answers[first + i] = hits[i].t < kInfinity ? answerOf(hits[i]) : Answer{};
     }
   }
 

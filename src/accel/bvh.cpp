@@ -27,7 +27,7 @@ struct Bvh::Builder {
     for (std::uint32_t i = 0; i < kLeafSize; ++i)
       names[i] = i < leaf.count ? items[leaf.first + i].item : kNoItem;
     bvh.items_.insert(bvh.items_.end(), names.begin(), names.end());
-    return number | BvhNode::kLeaf;
+    return number * kLeafPlaces | BvhNode::kLeaf;
   }
 
   /// A branch as at most 1, 2, ... 7 children of a node: what that costs at the least, and how many of 2, ...

@@ -25,9 +25,10 @@ class Bvh {
   static constexpr int kLeafSize = 4;
   static constexpr std::uint32_t kNoItem = 0xffffffffu;
 
-  /// How many items a leaf may hold: one, which is the leaf's number, where each costs a test of its own;
-  /// kLeafSize where they are tested together.
+  /// How many items a leaf may hold: one, where each costs a test of its own; kLeafSize where they are tested
+  /// together, as blocks of kLeafPlaces (bvh_node.h).
   enum class Leaves { single, together };
+  static constexpr std::uint32_t kLeafPlaces = 5;
 
   Bvh() = default;
   /// Over items 0 .. boxes.size() - 1. Empty boxes are left out. The tree is the same for any number of
@@ -49,6 +50,11 @@ class Bvh {
   void query(const Vec3& origin, const Vec3& direction, const Real& tMost, bool nearestFirst, Nodes& nodes,
              Visit&& visit, std::uint32_t skip = kNoItem) const;
 
+  /// Asks for several rays, nearer boxes first: calls visit(item, lanes), which returns the lanes whose
+  /// tMost it has lowered. Fast where the rays go the same way.
+  template <class Visit>
+  void query(const RayPacket& rays, NodeCount& nodes, Visit&& visit) const;
+
   /// The best for the machine if not set.
   void setKernel(const BvhKernel& kernel) { kernel_ = &kernel; }
 
@@ -59,6 +65,8 @@ class Bvh {
     return std::span<const std::uint32_t, kLeafSize>(items_.data() + std::size_t{number} * kLeafSize,
                                                      kLeafSize);
   }
+  /// Frees the memory of items(), for an owner who keeps the leaves' items elsewhere and never asks again.
+  void forgetItems() { items_ = {}; }
   std::uint32_t leafCount() const { return static_cast<std::uint32_t>(items_.size() / kLeafSize); }
   const HugeVector<BvhNode>& nodes() const { return nodes_; }
   std::size_t bytes() const {
@@ -93,6 +101,21 @@ void Bvh::query(const Vec3& origin, const Vec3& direction, const Real& tMost, bo
       nodes_.data(), extent_, origin, direction, tMost, nearestFirst, nodes,
       [](void* context, std::uint32_t item) { return (*static_cast<V*>(context))(item); },
       const_cast<void*>(static_cast<const void*>(&visit)), skip);
+}
+
+template <class Visit>
+void Bvh::query(const RayPacket& rays, NodeCount& nodes, Visit&& visit) const {
+  if (nodes_.empty()) {
+    for (std::uint32_t item : items_) visit(item, rays.lanes);
+    return;
+  }
+  using V = std::remove_reference_t<Visit>;
+  kernel_->together(
+      nodes_.data(), extent_, rays, nodes,
+      [](void* context, std::uint32_t item, unsigned lanes) {
+        return (*static_cast<V*>(context))(item, lanes);
+      },
+      const_cast<void*>(static_cast<const void*>(&visit)));
 }
 
 }  // namespace trace

@@ -21,9 +21,15 @@ using BvhQuery = void (*)(const BvhNode* nodes, const BvhExtent& extent, const V
                           const Vec3& direction, const double& tMost, bool nearestFirst, Nodes& visited,
                           VisitLeaf visit, void* context, std::uint32_t skip);
 
+/// Is called with the number of a leaf and the lanes of rays; returns those whose tMost it has lowered.
+using VisitTogether = unsigned (*)(void* context, std::uint32_t leaf, unsigned lanes);
+using BvhQueryTogether = void (*)(const BvhNode* nodes, const BvhExtent& extent, const RayPacket& rays,
+                                  NodeCount& visited, VisitTogether visit, void* context);
+
 struct BvhKernel {
   std::string_view name;
   std::tuple<BvhQuery<NodeCount>, BvhQuery<NodeWatch>> queries;
+  BvhQueryTogether together;  ///< nearest first
 };
 
 /// Whether this machine runs what is compiled for AVX2 (and fused multiply-add).

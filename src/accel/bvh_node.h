@@ -5,21 +5,28 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "math/vec.h"
+
 namespace trace {
 
-/// Eight children: their boxes, lane by lane, and what they are.
+/// Eight children: their boxes, lane by lane, and what they are, which lies beside planes and
+/// comes with them from the memory.
 struct alignas(32) BvhNode {
   static constexpr int kMostDepth = 160;               ///< most depth of any tree
-  static constexpr std::uint32_t kLeaf = 0x80000000u;  ///< set for leaves; the other bits number the leaf
+  static constexpr std::uint32_t kLeaf = 0x80000000u;  ///< set for leaves; the other bits are its place
 
+  std::uint32_t child[8];  ///< the place of a node or, with kLeaf, of a leaf
   float plane[3][2][8];    ///< axis, low or high, lane; an empty lane has low > high
-  std::uint32_t child[8];  ///< a leaf, or the place of a node
 };
 
-/// A node's place is its distance from the root in units of 32 bytes: no multiplication on a ray's way.
-inline constexpr std::uint32_t kNodePlaces = sizeof(BvhNode) / 32;
-inline const BvhNode& nodeAt(const BvhNode* nodes, std::uint32_t place) {
-  return *reinterpret_cast<const BvhNode*>(reinterpret_cast<const char*>(nodes) + std::size_t{place} * 32);
+/// The place of a node, or of a block of items that are tested together, is its distance from the first in
+/// units of 32 bytes: no multiplication on a ray's way. The place of a leaf with a single item is the item's
+/// number.
+inline constexpr std::uint32_t kPlaceBytes = 32;
+inline constexpr std::uint32_t kNodePlaces = sizeof(BvhNode) / kPlaceBytes;
+template <class T>
+const T& atPlace(const T* first, std::uint32_t place) {
+  return *reinterpret_cast<const T*>(reinterpret_cast<const char*>(first) + std::size_t{place} * kPlaceBytes);
 }
 
 /// How many nodes queries have visited.
@@ -38,6 +45,16 @@ struct NodeWatch {
   std::uint32_t owner = kTop;  ///< whose hierarchy is queried, as the caller numbers them
   /// Within a placement of a group: its number, and what is added to those of its objects.
   std::uint32_t placement = kTop, shift = 0;
+};
+
+/// Rays that go through a hierarchy together, wherever they lie.
+struct RayPacket {
+  static constexpr unsigned kRays = 8;
+
+  const Vec3* origin[kRays];
+  const Vec3* direction[kRays];
+  const double* tMost[kRays];
+  unsigned lanes = 0;  ///< bit i: there is a ray i
 };
 
 /// The whole of a hierarchy.

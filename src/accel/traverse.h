@@ -5,7 +5,6 @@
 
 #include "accel/bvh_node.h"
 #include "accel/simd.h"
-#include "math/vec.h"
 
 namespace trace::simd {
 namespace {  // each including file has its own, compiled with its own flags
@@ -81,19 +80,22 @@ constexpr float kShortest = 1e-9f, kLongest = 1e9f;  // direction that need not 
   return true;
 }
 
-/// Where what a leaf holds is: `size` bytes for each. Null: elsewhere.
-struct Leaves {
-  const void* first;
-  std::size_t size;
+/// The memory of a hierarchy. `leaves` is where the blocks of leaves are; null: elsewhere, or none.
+struct Places {
+  const BvhNode* nodes;
+  const void* leaves = nullptr;
 };
 
-/// Asks the memory for lines of a child that the ray is about to visit, or will after others.
+/// Asks the memory for lines of a child that the ray is about to visit, or will after others. Whether that is
+/// a leaf is a mask and not a branch, which would be guessed wrongly.
 template <int kBegin = 0, int kEnd = 4>
-[[gnu::always_inline]] inline void fetch(const BvhNode* nodes, Leaves leaves, std::uint32_t child) {
-  const bool leaf = child & BvhNode::kLeaf;
-  if (leaf && leaves.first == nullptr) return;
-  const char* at = leaf ? static_cast<const char*>(leaves.first) + (child & ~BvhNode::kLeaf) * leaves.size
-                        : reinterpret_cast<const char*>(&nodeAt(nodes, child));
+[[gnu::always_inline]] inline void fetch(const Places& places, std::uint32_t child) {
+  const auto nodes = reinterpret_cast<std::uintptr_t>(places.nodes),
+             leaves = reinterpret_cast<std::uintptr_t>(places.leaves);
+  const auto leaf =
+      static_cast<std::uintptr_t>(static_cast<std::intptr_t>(static_cast<std::int32_t>(child) >> 31));
+  const auto* at = reinterpret_cast<const char*>((nodes ^ (leaf & (nodes ^ leaves))) +
+                                                 std::size_t{child & ~BvhNode::kLeaf} * kPlaceBytes);
   for (int line = kBegin; line < kEnd; ++line) __builtin_prefetch(at + 64 * line);
 }
 
@@ -109,12 +111,13 @@ inline Pending pending(float near, std::uint32_t child) {
   nodes.note(nodes.context, node, nodes.owner);
 }
 
-/// Calls visit(leaf, limit), which returns true to end and may lower `limit`, for each leaf whose box the ray
-/// may hit before it. kNearestFirst: nearer boxes first, for the closest hit; else those first
-/// that are fullest of items, which the builder has put into the lanes 0, 7, 6, ... of a node.
+/// Calls visit(place of a leaf, limit), which returns true to end and may lower `limit`, for each leaf whose
+/// box the ray may hit before it, in the branch of the node `next`. kNearestFirst: nearer boxes first, for
+/// the closest hit; else those first that are fullest of items, which the builder has put into the lanes 0,
+/// 7, 6, ... of a node.
 template <bool kNearestFirst, class Nodes, class VisitLeaf>
-[[gnu::always_inline]] inline void traverse(const BvhNode* nodes, Leaves leaves, const SlabRay& ray,
-                                            float limit, Nodes& visited, const VisitLeaf& visit) {
+[[gnu::always_inline]] inline void traverse(const Places& places, const SlabRay& ray, float limit,
+                                            Nodes& visited, const VisitLeaf& visit, std::uint32_t next = 0) {
   Pending stack[8 * BvhNode::kMostDepth];  // seven waiting siblings for each level
   Pending* top = stack;
 
@@ -126,12 +129,11 @@ template <bool kNearestFirst, class Nodes, class VisitLeaf>
   // same, but a division later.)
   const unsigned backward = signs(ray.direction);
   const std::size_t side[3] = {backward << 3 & 8, 16 + (backward << 2 & 8), 32 + (backward << 1 & 8)};
-  std::uint32_t next = 0;
   for (;;) {
     if (next & BvhNode::kLeaf) {
       if (visit(next & ~BvhNode::kLeaf, limit)) return;
     } else {
-      const BvhNode& node = nodeAt(nodes, next);
+      const BvhNode& node = atPlace(places.nodes, next);
       tell(visited, node);
       const float* planes = &node.plane[0][0][0];
       Float8 first[3], last[3];
@@ -151,17 +153,17 @@ template <bool kNearestFirst, class Nodes, class VisitLeaf>
         unsigned lane = takeLane();
         next = node.child[lane];
         if (met == 0) {  // visited at once, so that the processor asks for the other lines by itself
-          fetch<2, 3>(nodes, leaves, next);
+          fetch<3, 4>(places, next);
           continue;
         }
-        fetch(nodes, leaves, next);
+        fetch(places, next);
         if constexpr (kNearestFirst) {
           alignas(32) float near[8];
           enter.store(near);
           Pending nearest = pending(near[lane], next);
           const auto keepNearest = [&] {  // in hand; returns the other
             lane = takeLane();
-            fetch(nodes, leaves, node.child[lane]);
+            fetch(places, node.child[lane]);
             const Pending other = pending(near[lane], node.child[lane]),
                           further = other < nearest ? nearest : other;
             nearest = other < nearest ? other : nearest;
@@ -179,7 +181,7 @@ template <bool kNearestFirst, class Nodes, class VisitLeaf>
         } else {
           do {
             const std::uint32_t child = node.child[takeLane()];
-            fetch(nodes, leaves, child);
+            fetch(places, child);
             *top++ = child;
           } while (met != 0);
         }
@@ -209,11 +211,11 @@ void queryLeaves(const BvhNode* nodes, const BvhExtent& extent, const Vec3& orig
     limit = ray.fromT(tMost);
     return ended;
   };
-  const Leaves none{nullptr, 0};  // what the visitor looks at is its own affair
+  const Places places{nodes};  // what the visitor looks at is its own affair
   if (nearestFirst)
-    traverse<true>(nodes, none, ray, ray.fromT(tMost), visited, visitLeaf);
+    traverse<true>(places, ray, ray.fromT(tMost), visited, visitLeaf);
   else
-    traverse<false>(nodes, none, ray, ray.fromT(tMost), visited, visitLeaf);
+    traverse<false>(places, ray, ray.fromT(tMost), visited, visitLeaf);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <set>
 
@@ -11,7 +12,30 @@
 namespace trace::test {
 namespace {
 
-/// What a query visits; the same for every kernel and both orders.
+/// What the ray visits among others that go nearly the same way.
+std::set<std::uint32_t> visitedTogether(const Bvh& bvh, const Vec3& o, const Vec3& d, Real tMost) {
+  std::array<Vec3, RayPacket::kRays> origins, directions;
+  RayPacket rays;
+  for (std::size_t i = 0; i < RayPacket::kRays; ++i) {
+    const Real off = 0.01 * (static_cast<Real>(i) - 3);  // none for ray 3
+    origins[i] = o * (1 + off);
+    directions[i] = d + Vec3{off, -off, off};
+    rays.origin[i] = &origins[i];
+    rays.direction[i] = &directions[i];
+    rays.tMost[i] = &tMost;
+    if (i != 5) rays.lanes |= 1u << i;
+  }
+  std::set<std::uint32_t> items;
+  NodeCount nodes;
+  bvh.query(rays, nodes, [&](std::uint32_t item, unsigned lanes) {
+    EXPECT_EQ(lanes & ~rays.lanes, 0u);
+    if (lanes >> 3 & 1) items.insert(item);
+    return 0u;
+  });
+  return items;
+}
+
+/// What a query visits; the same for every kernel and both orders, alone and with others.
 std::set<std::uint32_t> visited(Bvh bvh, const Vec3& o, const Vec3& d, Real tMost = kInfinity) {
   std::set<std::uint32_t> first;
   bool any = false;
@@ -23,6 +47,7 @@ std::set<std::uint32_t> visited(Bvh bvh, const Vec3& o, const Vec3& d, Real tMos
       bvh.setKernel(kernel);
       bvh.query(o, d, tMost, nearestFirst, nodes, insert);
       EXPECT_TRUE(!any || items == first) << kernel.name;
+      EXPECT_EQ(visitedTogether(bvh, o, d, tMost), items) << kernel.name;
       first = items, any = true;
     }
   return first;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 
 #include "geometry/mesh/mesh.h"
@@ -93,6 +95,86 @@ TEST(MeshTree, FindsWhatTestingEveryTriangleFinds) {
       }
     }
   }
+}
+
+/// Rays from one eye, or from anywhere: along axes, through vertices, from inside, of unusual lengths.
+std::array<Ray, RayPacket::kRays> packetAt(const MeshData& mesh, Random& random, int kind) {
+  std::array<Ray, RayPacket::kRays> rays;
+  const auto vertex = [&] {
+    return Vec3(mesh.points[static_cast<size_t>(random.below(static_cast<int>(mesh.points.size())))]);
+  };
+  const Vec3 eye = kind % 3 == 0 ? random.inCube(0.5) : random.direction() * 3;
+  const Vec3 target = kind % 2 ? vertex() : random.inCube(1.2);
+  for (Ray& ray : rays) {
+    ray = {eye, target + random.inCube(0.05) - eye};
+    if (kind % 5 == 1) ray = {random.inCube(2), random.direction()};              // from anywhere
+    if (kind % 5 == 2) ray.direction = vertex() - eye;                            // at vertices
+    if (kind % 5 == 3) ray.direction[kind / 5 % 3] = random.coin() ? 0.0 : -0.0;  // across an axis
+    if (kind % 7 == 3) ray.direction = {0, 0, random.coin() ? 1.0 : -1.0};        // along one
+    if (kind % 11 == 3) ray.direction = ray.direction * std::pow(10, random.uniform(-40, 40));
+  }
+  if (kind % 13 == 3) rays[2].origin = rays[2].origin - rays[2].direction * 1e6;
+  return rays;
+}
+
+using Packet = std::array<Ray, RayPacket::kRays>;
+std::array<const Ray*, RayPacket::kRays> pointers(const Packet& rays) {
+  std::array<const Ray*, RayPacket::kRays> all;
+  for (std::size_t i = 0; i < rays.size(); ++i) all[i] = &rays[i];
+  return all;
+}
+
+TEST(MeshTree, RaysTogetherFindWhatEachFindsAlone) {
+  Random random(5);
+  const auto mesh = ballMesh(24, random);
+  addNeedles(*mesh, random);
+  const MeshTree every(mesh, true);
+  for (const MeshKernel& kernel : meshKernels()) {
+    const MeshTree tree(mesh, false, 1, kernel);
+    for (int k = 0; k < (kSanitized ? 500 : 5000); ++k) {
+      const auto rays = packetAt(*mesh, random, k);
+      const Real tMost = random.coin() ? kInfinity : random.uniform(0, 5);
+      const auto lanes = k % 4 == 0 ? static_cast<unsigned>(random.below(256)) : 255u;
+      std::array<MeshHit, RayPacket::kRays> best;
+      for (MeshHit& hit : best) hit.hit.t = tMost;
+      Counts counts;
+      (k % 10 == 0 ? every : tree).closest(pointers(rays).data(), best.data(), lanes, counts.both());
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        if (!(lanes >> i & 1)) continue;
+        MeshHit alone;
+        alone.hit.t = tMost;
+        const bool found = (k % 5 == 0 ? every : tree).closest(rays[i], alone, nullptr, counts.both());
+        ASSERT_EQ(best[i].triangle, alone.triangle) << kernel.name << ' ' << k;
+        if (!found) continue;
+        EXPECT_EQ(best[i].hit.t, alone.hit.t);
+        EXPECT_TRUE(std::equal(std::begin(alone.hit.b), std::end(alone.hit.b), best[i].hit.b));
+        EXPECT_EQ(best[i].hit.front, alone.hit.front);
+      }
+    }
+  }
+}
+
+TEST(MeshTree, RaysOfNeighbouringPixelsVisitFewNodesTogether) {
+  Random random(6);
+  const auto mesh = ballMesh(60, random);
+  const MeshTree tree(mesh, false);
+  Counts together, alone;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; x += 8) {
+      std::array<Ray, RayPacket::kRays> rays;
+      std::array<MeshHit, RayPacket::kRays> best;
+      for (int i = 0; i < 8; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        rays[at] = {{0.1, 0.2, 3}, {(x + i - 31.5) / 90, (y - 31.5) / 90, -1}};
+        best[at].hit.t = kInfinity;
+        MeshHit hit;
+        hit.hit.t = kInfinity;
+        tree.closest(rays[at], hit, nullptr, alone.both());
+      }
+      tree.closest(pointers(rays).data(), best.data(), 255, together.both());
+    }
+  EXPECT_LT(together.nodes.count, alone.nodes.count / 3);
+  EXPECT_LT(static_cast<double>(together.triangles), 1.5 * static_cast<double>(alone.triangles));
 }
 
 TEST(MeshTree, NoRayEscapesThroughEdgesOrVertices) {

@@ -1,6 +1,8 @@
 // Rays and the compiled world: the hierarchy against brute force, and rays that start from surfaces.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
 
 #include "geometry/mesh/mesh.h"
@@ -46,6 +48,41 @@ TEST(World, HierarchyFindsWhatBruteForceFinds) {
     }
   }
   EXPECT_GT(hits, kRays);
+}
+
+TEST(World, RaysTogetherHitWhatTheyHitAlone) {
+  Random random(11);
+  for (int s = 0; s < 20; ++s) {
+    const World world =
+        build(randomScene(random, s % 2 ? 3 : 12));  // without and with a hierarchy of objects
+    for (int k = 0; k < kRays / 8; ++k) {
+      std::array<Ray, RayPacket::kRays> rays;
+      const Ray middle = rayThrough(random, 1);
+      for (Ray& ray : rays) ray = {middle.origin, middle.direction + random.inCube(k % 4 ? 0.02 : 1)};
+      const Faces faces = k % 8 == 1 ? Faces::front : Faces::both;
+      const std::size_t count = k % 16 == 2 ? 5 : rays.size();
+      std::array<Found, RayPacket::kRays> together;
+      std::array<const Ray*, RayPacket::kRays> asked;
+      std::array<Found*, RayPacket::kRays> found;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        asked[i] = &rays[i];
+        found[i] = &together[i];
+      }
+      Statistics statistics;
+      world.closest(std::span(asked).first(count), faces, statistics, found);
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto alone = world.closest(rays[i], faces, statistics);
+        ASSERT_EQ(together[i].t < kInfinity, alone.has_value());
+        if (!alone) continue;
+        EXPECT_EQ(together[i].t, alone->t);
+        EXPECT_EQ(together[i].object, alone->object);
+        EXPECT_EQ(together[i].part, alone->part);
+        if (!world.meshTree(alone->object)) continue;
+        const TriangleHit &a = alone->triangle, &b = together[i].triangle;
+        EXPECT_TRUE(std::equal(std::begin(a.b), std::end(a.b), b.b) && a.front == b.front);
+      }
+    }
+  }
 }
 
 TEST(World, AllCrossingsAreThoseOfBruteForce) {

@@ -2,7 +2,7 @@
 // instruction set (mesh_kernel_*.cpp), like accel/traverse.h.
 #pragma once
 
-#include "accel/traverse.h"
+#include "accel/packet.h"
 #include "geometry/mesh/mesh_tree.h"
 
 namespace trace::simd {
@@ -90,22 +90,23 @@ template <bool kNearestFirst, class Nodes, class Meet>
   SlabRay ray;
   if (!prepare(q.mesh.extent, origin, direction, q.best.hit.t, ray)) return;
   const BlockTest test(q.ray, q.mesh.extent);
-  const auto visitBlock = [&](std::uint32_t block, float& limit) {
+  const auto visitBlock = [&](std::uint32_t place, float& limit) {
     ++q.blocks;
-    const BlockHits hits = test(q.mesh.blocks[block], q.best.hit.t);
+    const TriangleBlock& block = atPlace(q.mesh.blocks, place);
+    const BlockHits hits = test(block, q.best.hit.t);
     if (hits.met == 0) return false;
     const bool ended = meet(block, hits);
     limit = ray.fromT(q.best.hit.t);
     return ended;
   };
-  traverse<kNearestFirst>(q.mesh.nodes, {q.mesh.blocks, sizeof(TriangleBlock)}, ray, ray.fromT(q.best.hit.t),
-                          nodes, visitBlock);
+  Nodes visited = nodes;  // a copy of its own, which may stay in a register
+  traverse<kNearestFirst>({q.mesh.nodes, q.mesh.blocks}, ray, ray.fromT(q.best.hit.t), visited, visitBlock);
+  nodes = visited;
 }
 
-inline void fill(MeshHit& met, const MeshQuery& q, std::uint32_t block, unsigned lane,
-                 const BlockHits& hits) {
+inline void fill(MeshHit& met, const TriangleBlock& block, unsigned lane, const BlockHits& hits) {
   const double along = hits.along[lane], b1 = hits.w1[lane] / along, b2 = -hits.minusW2[lane] / along;
-  met.triangle = q.mesh.triangles[4 * block + lane];
+  met.triangle = block.triangle[lane];
   TriangleHit& hit = met.hit;
   hit.t = hits.t[lane];
   hit.b[0] = 1 - b1 - b2;
@@ -115,30 +116,62 @@ inline void fill(MeshHit& met, const MeshQuery& q, std::uint32_t block, unsigned
 }
 
 /// Whether the lane's hit counts.
-inline bool accepted(MeshQuery& q, std::uint32_t block, unsigned lane, const BlockHits& hits) {
+inline bool accepted(MeshQuery& q, const TriangleBlock& block, unsigned lane, const BlockHits& hits) {
   if (!(hits.sure >> lane & 1) && !q.passes(block, lane)) return false;
   if (q.accept == nullptr) return true;
   MeshHit candidate;
-  fill(candidate, q, block, lane, hits);
+  fill(candidate, block, lane, hits);
   return q.accept(q.context, candidate);
+}
+
+/// Keeps the nearest of the hits, if that is nearer than the best so far.
+[[gnu::always_inline]] inline void keepNearest(MeshQuery& q, const TriangleBlock& block,
+                                               const BlockHits& hits) {
+  for (unsigned met = hits.met; met != 0; met &= met - 1) {
+    const auto lane = static_cast<unsigned>(__builtin_ctz(met));
+    const double t = hits.t[lane], best = q.best.hit.t;
+    if (t > best || (t == best && block.triangle[lane] >= q.best.triangle)) continue;
+    if (accepted(q, block, lane, hits)) fill(q.best, block, lane, hits);
+  }
 }
 
 template <class Nodes>
 void closestInMesh(MeshQuery& q, Nodes& nodes) {
-  blocksMet<true>(q, nodes, [&](std::uint32_t block, const BlockHits& hits) {
-    for (unsigned met = hits.met; met != 0; met &= met - 1) {
-      const auto lane = static_cast<unsigned>(__builtin_ctz(met));
-      const double t = hits.t[lane], best = q.best.hit.t;
-      if (t > best || (t == best && q.mesh.triangles[4 * block + lane] >= q.best.triangle)) continue;
-      if (accepted(q, block, lane, hits)) fill(q.best, q, block, lane, hits);
-    }
+  blocksMet<true>(q, nodes, [&](const TriangleBlock& block, const BlockHits& hits) {
+    keepNearest(q, block, hits);
     return false;
   });
 }
 
+void closestTogetherInMesh(MeshPacket& p, NodeCount& nodes) {
+  RayPacket rays;
+  rays.lanes = p.lanes;
+  for (unsigned lanes = p.lanes; lanes != 0; lanes &= lanes - 1) {
+    const auto i = static_cast<unsigned>(__builtin_ctz(lanes));
+    rays.origin[i] = &p.rays[i]->origin;
+    rays.direction[i] = &p.rays[i]->direction;
+    rays.tMost[i] = &p.best[i].hit.t;
+  }
+  const auto visit = [&](std::uint32_t place, unsigned lanes) {
+    const TriangleBlock& block = atPlace(p.mesh.blocks, place);
+    unsigned lowered = 0;
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<unsigned>(__builtin_ctz(lanes));
+      ++p.blocks;
+      MeshQuery q{*p.rays[lane], p.mesh, p.best[lane]};
+      const BlockHits hits = BlockTest(q.ray, p.mesh.extent)(block, q.best.hit.t);
+      if (hits.met == 0) continue;
+      keepNearest(q, block, hits);
+      lowered |= 1u << lane;
+    }
+    return lowered;
+  };
+  queryTogether({p.mesh.nodes, p.mesh.blocks}, p.mesh.extent, rays, nodes, visit);
+}
+
 template <class Nodes>
 void crossingsOfMesh(MeshQuery& q, Nodes& nodes) {
-  blocksMet<false>(q, nodes, [&](std::uint32_t block, const BlockHits& hits) {
+  blocksMet<false>(q, nodes, [&](const TriangleBlock& block, const BlockHits& hits) {
     for (unsigned met = hits.met; met != 0; met &= met - 1) {
       const auto lane = static_cast<unsigned>(__builtin_ctz(met));
       if (hits.t[lane] < q.best.hit.t && accepted(q, block, lane, hits)) return true;

@@ -4,6 +4,7 @@
 namespace trace {
 
 extern const MeshKernel kMeshKernelAvx2;
-const MeshKernel kMeshKernelAvx2{"avx2", {simd::inMesh<NodeCount>, simd::inMesh<NodeWatch>}};
+const MeshKernel kMeshKernelAvx2{
+    "avx2", {simd::inMesh<NodeCount>, simd::inMesh<NodeWatch>}, simd::closestTogetherInMesh};
 
 }  // namespace trace

@@ -5,6 +5,7 @@
 namespace trace {
 
 extern const MeshKernel kMeshKernelAvx512;
-const MeshKernel kMeshKernelAvx512{"avx512", {simd::inMesh<NodeCount>, simd::inMesh<NodeWatch>}};
+const MeshKernel kMeshKernelAvx512{
+    "avx512", {simd::inMesh<NodeCount>, simd::inMesh<NodeWatch>}, simd::closestTogetherInMesh};
 
 }  // namespace trace

@@ -4,6 +4,7 @@
 namespace trace {
 
 extern const MeshKernel kMeshKernelBase;
-const MeshKernel kMeshKernelBase{"base", {simd::inMesh<NodeCount>, simd::inMesh<NodeWatch>}};
+const MeshKernel kMeshKernelBase{
+    "base", {simd::inMesh<NodeCount>, simd::inMesh<NodeWatch>}, simd::closestTogetherInMesh};
 
 }  // namespace trace

@@ -1,5 +1,6 @@
 #include "geometry/mesh/mesh_tree.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -24,8 +25,8 @@ std::span<const MeshKernel> meshKernels() {
 #endif
 }
 
-bool MeshQuery::passes(std::uint32_t block, std::size_t lane) const {
-  return TriangleRay(ray).passes(mesh.blocks[block].corners(lane));
+bool MeshQuery::passes(const TriangleBlock& block, std::size_t lane) const {
+  return TriangleRay(ray).passes(block.corners(lane));
 }
 
 namespace {
@@ -34,6 +35,7 @@ void fill(TriangleBlock& block, const MeshData& mesh,
           std::span<const std::uint32_t, Bvh::kLeafSize> triangles) {
   constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
   constexpr Vec3f kNowhere{kNone, kNone, kNone};
+  std::copy(triangles.begin(), triangles.end(), block.triangle);
   for (std::size_t corner = 0; corner < 3; ++corner) {
     const auto point = [&](std::size_t lane) {
       const std::uint32_t triangle = triangles[lane];
@@ -58,7 +60,20 @@ MeshTree::MeshTree(std::shared_ptr<const MeshData> data, bool bruteForce, int th
   blocks_.reserve(bvh_.leafCount());
   for (std::uint32_t leaf = 0; leaf < bvh_.leafCount(); ++leaf)
     fill(blocks_.emplace_back(), *data_, bvh_.leaf(leaf));
-  arrays_ = {bvh_.nodes().data(), blocks_.data(), bvh_.leaf(0).data(), bvh_.extent()};
+  arrays_ = {bvh_.nodes().data(), blocks_.data(), bvh_.extent()};
+  bvh_.forgetItems();  // the blocks know them
+}
+
+void MeshTree::closest(const Ray* const* rays, MeshHit* best, unsigned lanes, MeshCounts<> counts) const {
+  for (unsigned lane = 0; lane < RayPacket::kRays; ++lane) {
+    if (!(lanes >> lane & 1)) continue;
+    best[lane].triangle = Bvh::kNoItem;
+    if (bvh_.nodes().empty()) closest(*rays[lane], best[lane], nullptr, counts);
+  }
+  if (bvh_.nodes().empty()) return;
+  MeshPacket packet{rays, arrays_, best, lanes};
+  kernel_.closestTogether(packet, counts.nodes);
+  counts.triangles += packet.blocks * Bvh::kLeafSize;
 }
 
 }  // namespace trace

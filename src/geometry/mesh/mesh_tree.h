@@ -17,15 +17,19 @@
 
 namespace trace {
 
-/// The corners of four triangles: corner, axis, lane. Unused lanes hold NaN and are never hit.
-struct alignas(16) TriangleBlock {
+/// Four triangles: their corners by corner, axis, lane, and their numbers, so that a hit reads no other
+/// memory. Unused lanes hold NaN and are never hit. Aligned so that a block lies in three cache lines.
+struct alignas(32) TriangleBlock {
   float corner[3][3][4];
+  std::uint32_t triangle[4];
 
   Corners corners(std::size_t lane) const {
     const auto at = [&](int i) { return Vec3{corner[i][0][lane], corner[i][1][lane], corner[i][2][lane]}; };
     return {at(0), at(1), at(2)};
   }
 };
+
+static_assert(sizeof(TriangleBlock) == Bvh::kLeafPlaces * kPlaceBytes);
 
 struct MeshHit {
   std::uint32_t triangle = Bvh::kNoItem;
@@ -36,7 +40,6 @@ struct MeshHit {
 struct MeshArrays {
   const BvhNode* nodes;
   const TriangleBlock* blocks;
-  const std::uint32_t* triangles;  ///< four for each block
   BvhExtent extent;
 };
 
@@ -51,7 +54,16 @@ struct MeshQuery {
   std::uint64_t blocks = 0;  ///< tested
 
   /// The exact test of a lane of a block.
-  bool passes(std::uint32_t block, std::size_t lane) const;
+  bool passes(const TriangleBlock& block, std::size_t lane) const;
+};
+
+/// The queries for the nearest hits along several rays; every hit counts.
+struct MeshPacket {
+  const Ray* const* rays;
+  const MeshArrays& mesh;
+  MeshHit* best;             ///< as in MeshQuery, for each ray
+  unsigned lanes;            ///< bit i: there is a ray i
+  std::uint64_t blocks = 0;  ///< tested, for each ray
 };
 
 /// The ways through a mesh; `Nodes`, NodeCount or NodeWatch, hears of the nodes.
@@ -67,6 +79,7 @@ struct MeshWays {
 struct MeshKernel {
   std::string_view name;
   std::tuple<MeshWays<NodeCount>, MeshWays<NodeWatch>> ways;
+  void (*closestTogether)(MeshPacket&, NodeCount&);
 };
 
 /// The kernels that this machine can run, the best first.
@@ -93,6 +106,10 @@ class MeshTree {
   /// likes all. Then `best` is the nearest, of several at the same t the triangle with the lowest number.
   template <class Accept, class Nodes>
   bool closest(const Ray& ray, MeshHit& best, Accept&& accept, MeshCounts<Nodes> counts) const;
+
+  /// Asks for the rays of those lanes together, which all hits please: `best` becomes the nearest of
+  /// each, or has no triangle. Fast where the rays go the same way.
+  void closest(const Ray* const* rays, MeshHit* best, unsigned lanes, MeshCounts<> counts) const;
 
   /// Calls visit(MeshHit), which returns true to end the query, for every hit at 0 < t < tMost, in any order.
   /// A triangle that the hierarchy holds in parts may be hit more than once.

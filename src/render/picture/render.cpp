@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "base/budget.h"
@@ -107,25 +108,34 @@ class TileRenderer {
     const Tile& area = samples.area;
     samples.colors.reserve(static_cast<std::size_t>(pixelsIn(area) * wave.count()));
     tracer_.collect(throws_ ? &samples.splats : nullptr);
+    names_.clear();
     for (int y = area.y0; y < area.y1; ++y)
-      for (int x = area.x0; x < area.x1; ++x) {
-        if (film_.settled(x, y)) continue;
-        for (int k = wave.first; k < wave.end; ++k) {
-          Real weight = 1;
-          tree_.nodes.clear();
-          const Color color = tracer().sample(x, y, k, [&](const CameraRay& camera, const Sampler& sampler) {
-            weight = camera.weight;
-            if (hasLayers_) addPasses(camera, sampler, samples.layers);
-          });
-          if (weight != 1 && samples.weights.empty()) samples.weights.assign(samples.colors.size(), 1);
-          if (weight != 1 || !samples.weights.empty()) samples.weights.push_back(weight);
-          samples.colors.push_back(color);
-          samples.paths += throws_;
-          if (!isFinite(color)) noteBad({x, y, k});
-        }
-      }
+      for (int x = area.x0; x < area.x1; ++x)
+        if (!film_.settled(x, y))
+          for (int k = wave.first; k < wave.end; ++k) names_.push_back({x, y, k});
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (i % RayPacket::kRays == 0)
+        tracer().lookAhead(
+            std::span(names_).subspan(i, std::min<std::size_t>(RayPacket::kRays, names_.size() - i)));
+      takePixel(names_[i], samples);
+    }
     if (throws_) throwFromBeside(film_.tile(tile), wave, samples);
     std::erase_if(samples.splats, [&](const Splat& s) { return !isIn(area_, s.x, s.y); });
+  }
+
+  void takePixel(const PixelTracer::Name& name, TileSamples& samples) {
+    const auto [x, y, k] = name;
+    Real weight = 1;
+    tree_.nodes.clear();
+    const Color color = tracer().sample(x, y, k, [&](const CameraRay& camera, const Sampler& sampler) {
+      weight = camera.weight;
+      if (hasLayers_) addPasses(camera, sampler, samples.layers);
+    });
+    if (weight != 1 && samples.weights.empty()) samples.weights.assign(samples.colors.size(), 1);
+    if (weight != 1 || !samples.weights.empty()) samples.weights.push_back(weight);
+    samples.colors.push_back(color);
+    samples.paths += throws_;
+    if (!isFinite(color)) noteBad({x, y, k});
   }
 
   /// Light that samples of the tile's pixels beside the area bring into it, so that what is seen there is the
@@ -272,8 +282,9 @@ class TileRenderer {
   bool hasLayers_ = false;
   std::optional<PixelTracer> chainTracer_;
   std::vector<std::int64_t> pixelsBefore_;
-  bool throws_ = false;         ///< samples bring light to other pixels, too
-  std::vector<BadSample> bad_;  ///< the first
+  std::vector<PixelTracer::Name> names_;  ///< the samples of a tile and a wave
+  bool throws_ = false;                   ///< samples bring light to other pixels, too
+  std::vector<BadSample> bad_;            ///< the first
   std::uint64_t badCount_ = 0;
 };
 

@@ -28,10 +28,14 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found)
 }
 
 std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance,
-                                std::optional<std::uint32_t> aim) {
+                                std::optional<std::uint32_t> aim, const Found* first) {
   count(kind);
   if (records()) begin(ray, kind, kInfinity, inside.wavelength);
-  auto found = world_.closest(ray, facesSeenBy(kind), statistics_);
+  std::optional<Found> found;
+  if (!first)
+    found = world_.closest(ray, facesSeenBy(kind), statistics_);
+  else if (first->t < kInfinity)
+    found = *first;
   passedShadowless_ = false;
   if (aim) passedPanes_ = Color(1);
   const bool passes = aim && (world_.hasShadowless() || world_.hasPanes());

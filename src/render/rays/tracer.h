@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "render/rays/ray_tree.h"
@@ -27,8 +28,14 @@ class Tracer {
   ///
   /// A ray with an `aim` samples the light of that object, or of kSky: it passes all else that casts no
   /// shadow, and panes, which filter it.
+  ///
+  /// `first` is what lookAhead() found for the ray, if that was asked.
   std::optional<Hit> cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance = 0,
-                          std::optional<std::uint32_t> aim = {});
+                          std::optional<std::uint32_t> aim = {}, const Found* first = nullptr);
+  /// The first crossings of rays that will be cast, at most RayPacket::kRays.
+  void lookAhead(std::span<const Ray* const> rays, RayKind kind, std::span<Found* const> found) {
+    world_.closest(rays, facesSeenBy(kind), statistics_, found);
+  }
   static constexpr std::uint32_t kSky = 0xffffffffu;
   /// Such a number, drawn only where something has holes.
   template <class Numbers>

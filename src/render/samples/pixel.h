@@ -44,6 +44,28 @@ class PixelTracer {
   /// How many a pixel has.
   int samples() const { return rules_.samples(); }
 
+  /// Sample k of a pixel.
+  struct Name {
+    int x, y, k;
+    bool operator==(const Name&) const = default;
+  };
+  /// Traces the camera rays of samples together, at most RayPacket::kRays, which sample() is then asked for
+  /// in this order. Rays of neighbouring pixels and of one pixel hit what they hit alone, in less time.
+  void lookAhead(std::span<const Name> names) {
+    ahead_.clear();
+    next_ = 0;
+    if (moments_.size() > 1 || tree_) return;
+    ahead_.reserve(names.size());  // each stays where it is
+    std::array<const Ray*, RayPacket::kRays> rays;
+    std::array<Found*, RayPacket::kRays> found;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      Ahead& ahead = ahead_.emplace_back(*this, names[i]);
+      rays[i] = &ahead.aimed.ray;
+      found[i] = &ahead.found;
+    }
+    tracer(0).lookAhead(std::span(rays).first(names.size()), RayKind::camera, found);
+  }
+
   /// The radiance of the camera ray of sample 0 <= k < samples(); may be NaN or infinite. Row y = 0 is the
   /// top.
   Color sample(int x, int y, int k) {
@@ -52,14 +74,17 @@ class PixelTracer {
   /// The same; look(CameraRay, Sampler) sees the ray after it was followed.
   template <class Look>
   Color sample(int x, int y, int k, Look&& look) {
-    const Sampler sampler(rules_, x, y, k);
-    return follow(sampler, rules_.middle(x, y), sampler.film(), look);
+    if (next_ < ahead_.size() && ahead_[next_].name == Name{x, y, k}) {
+      const Ahead& ahead = ahead_[next_++];
+      return follow(ahead.aimed, &ahead.found, look);
+    }
+    return follow(aim(Name{x, y, k}), nullptr, look);
   }
   /// The radiance at a corner, likewise.
   template <class Look>
   Color corner(const CornerPlace& place, Look&& look) {
     const Sampler sampler(rules_, place);
-    return follow(sampler, rules_.middle(place.x, place.y), {rules_.corner(place), 1}, look);
+    return follow(aim(sampler, rules_.middle(place.x, place.y), {rules_.corner(place), 1}), nullptr, look);
   }
   /// Collects what sample k throws at other places, and takes nothing else of it.
   void throwLight(int x, int y, int k) {
@@ -73,7 +98,7 @@ class PixelTracer {
   template <class Look>
   void look(int x, int y, int k, Look&& look) {
     const Sampler sampler(rules_, x, y, k);
-    withCamera(sampler, rules_.middle(x, y), sampler.film(),
+    withCamera(aim(sampler, rules_.middle(x, y), sampler.film()), nullptr,
                [&](const CameraRay& camera) { look(camera, sampler); });
   }
   /// The contribution of a sample with these numbers, times what it counts, and where. The numbers choose its
@@ -89,9 +114,10 @@ class PixelTracer {
     const auto [x, withinX] = split(u.x, area.x0, area.x1);
     const auto [y, withinY] = split(u.y, area.y0, area.y1);
     const FilmSample place = rules_.film(x, y, 0, {withinX, withinY});
-    return withCamera(sampler, rules_.middle(x, y), place, [&, x = x, y = y](const CameraRay& camera) {
+    const auto splat = [&, x = x, y = y](const CameraRay& camera) {
       return Splat{x, y, radiance(sampler, camera) * (camera.weight * rules_.filterWeight())};
-    });
+    };
+    return withCamera(aim(sampler, rules_.middle(x, y), place), nullptr, splat);
   }
 
   /// The tracer of the moment of the last sample.
@@ -112,31 +138,57 @@ class PixelTracer {
   }
 
  private:
+  /// The camera ray of a sample, before it is cast.
+  struct Aimed {
+    Sampler sampler;
+    std::size_t moment;
+    Real weight;
+    Vec2 place, lens;
+    Ray ray;
+  };
+  /// One whose ray was cast, by lookAhead().
+  struct Ahead {
+    Name name;
+    Aimed aimed;
+    Found found;
+
+    Ahead(const PixelTracer& pixels, const Name& own) : name(own), aimed(pixels.aim(own)) {}
+  };
+
+  /// The ray of a place of the picture, which counts for the pixel of that middle.
+  Aimed aim(const Sampler& sampler, const Vec2& middle, const FilmSample& drawn) const {
+    const std::size_t moment = momentOf(sampler);
+    const CameraFrame& frame = moments_[moment].world->camera();
+    const Vec2 place = frame.inEyeOf(middle, drawn.place);
+    const Vec2 lens = frame.optics.lens.radius > 0 ? sampler.branch(Branch::lens).next2() : kCenter;
+    return {sampler, moment, drawn.weight, place, lens, frame.ray(place, lens)};
+  }
+  Aimed aim(const Name& name) const {
+    const Sampler sampler(rules_, name.x, name.y, name.k);
+    return aim(sampler, rules_.middle(name.x, name.y), sampler.film());
+  }
   template <class Look>
-  Color follow(const Sampler& sampler, const Vec2& middle, const FilmSample& place, const Look& look) {
-    return withCamera(sampler, middle, place, [&](const CameraRay& camera) {
-      const Color color = radiance(sampler, camera);
-      look(camera, sampler);
+  Color follow(const Aimed& aimed, const Found* first, const Look& look) {
+    return withCamera(aimed, first, [&](const CameraRay& camera) {
+      const Color color = radiance(aimed.sampler, camera);
+      look(camera, aimed.sampler);
       return color;
     });
   }
-  /// Calls use(CameraRay) for the ray of a place of the picture, which counts for the pixel of that middle.
+  /// Calls use(CameraRay) for the ray; `first` is what it hits first, if that is known.
   template <class Use>
-  std::invoke_result_t<const Use&, const CameraRay&> withCamera(const Sampler& sampler, const Vec2& middle,
-                                                                const FilmSample& drawn, const Use& use) {
-    Tracer& tracer = this->tracer(momentOf(sampler));
+  std::invoke_result_t<const Use&, const CameraRay&> withCamera(const Aimed& aimed, const Found* first,
+                                                                const Use& use) {
+    const auto& [sampler, moment, weight, place, lens, ray] = aimed;
+    Tracer& tracer = this->tracer(moment);
     const World& world = tracer.world();
-    const CameraFrame& frame = world.camera();
-    const Vec2 place = frame.inEyeOf(middle, drawn.place);
-    const Vec2 lens = frame.optics.lens.radius > 0 ? sampler.branch(Branch::lens).next2() : kCenter;
-    const Ray ray = frame.ray(place, lens);
     Footprint differentials;
-    if (world.wantsFootprints()) differentials = differentialsAt(frame, place, lens, ray);
+    if (world.wantsFootprints()) differentials = differentialsAt(world.camera(), place, lens, ray);
     Interfaces inside = tracer.interfacesAt(ray.origin);
     const bool weighs = moments_[now_].integrator->weighsHoles();
     const Real chance = weighs || !world.hasHoles() ? 0 : sampler.branch(Branch::cameraHole).next();
-    CameraRay camera{ray, tracer.cast(ray, RayKind::camera, inside, chance), std::move(inside), drawn.weight,
-                     differentials.get()};
+    CameraRay camera{ray, tracer.cast(ray, RayKind::camera, inside, chance, {}, first), std::move(inside),
+                     weight, differentials.get()};
     if (tracer.settings().outlines > 0) camera.ink = inkAt(tracer, camera.hit, place, lens, rules_.size());
     if (splats_) camera.thrown = &thrown_;
     return use(camera);
@@ -180,6 +232,8 @@ class PixelTracer {
   std::vector<Thrown> thrown_;  ///< by the sample
   std::size_t now_ = 0;
   SampleRules rules_;
+  std::vector<Ahead> ahead_;
+  std::size_t next_ = 0;  ///< index into them
 };
 
 /// Adds the samples of the wave; calls see(color, weight) for each.

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -85,6 +86,11 @@ class World {
   template <class Nodes>
   std::optional<Found> closest(const Ray& ray, Faces faces, QueryCounts<Nodes>& counts,
                                Real tMost = kInfinity) const;
+
+  /// Finds it for each of at most RayPacket::kRays rays, which leave nothing. Rays that go the same way are
+  /// faster together. The t of what is found is infinite where nothing is hit.
+  void closest(std::span<const Ray* const> rays, Faces faces, Statistics& counts,
+               std::span<Found* const> found) const;
 
   /// Calls visit(Found) for every crossing at 0 < t < tMost, in no particular order; ends when it returns
   /// true. The way to ask whether anything is hit at all. A triangle that its hierarchy holds in parts may be
@@ -356,6 +362,9 @@ class World {
   template <class Nodes>
   [[gnu::noinline]] bool closestSeen(std::uint32_t object, const Ray& ray, Faces faces,
                                      QueryCounts<Nodes>& counts, MeshHit& met) const;
+  /// For the rays of those lanes.
+  void closestTogether(std::uint32_t object, std::span<const Ray* const> rays, unsigned lanes, Faces faces,
+                       Statistics& counts, std::span<Found* const> best) const;
   /// Whether the faces include the triangle that was hit; the ray is in the space of the object, a mesh.
   bool included(Faces faces, std::uint32_t object, const Ray& ray, const MeshHit& met) const {
     if (sees(faces, ray, objects_[object].mesh->data(), met)) return true;

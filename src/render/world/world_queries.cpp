@@ -57,6 +57,15 @@ Ray into(const Affine& outFromGroup, const Ray& ray) {
   return {in * ray.origin, linear(in, ray.direction)};
 }
 
+/// Takes the hit of a mesh. At the same distance the object that comes first in the scene counts.
+template <class Nodes>
+void take(const MeshHit& met, std::uint32_t object, std::uint32_t kind, QueryCounts<Nodes>& counts,
+          Found& best) {
+  if (met.hit.t == best.t && object >= best.object) return;
+  ++counts.hits[kind];
+  best = {met.hit.t, object, met.triangle, met.hit};
+}
+
 /// Those among which the placement of that number is.
 template <class Uses>
 const Uses& usesWith(const std::vector<Uses>& uses, std::uint32_t use) {
@@ -91,6 +100,60 @@ std::optional<Found> World::closest(const Ray& ray, Faces faces, QueryCounts<Nod
   return best;
 }
 
+void World::closest(std::span<const Ray* const> rays, Faces faces, Statistics& counts,
+                    std::span<Found* const> found) const {
+  RayPacket packet;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    *found[i] = {};
+    packet.origin[i] = &rays[i]->origin;
+    packet.direction[i] = &rays[i]->direction;
+    packet.tMost[i] = &found[i]->t;
+    packet.lanes |= 1u << i;
+  }
+  const auto ask = [&](std::uint32_t object, unsigned lanes) {
+    checkBudget();
+    closestTogether(object, rays, lanes, faces, counts, found);
+    return lanes;
+  };
+  checkBudget();
+  for (std::uint32_t object : always_) ask(object, packet.lanes);
+  if (!bvh_->nodes().empty()) bvh_->query(packet, counts.nodes, ask);
+}
+
+void World::closestTogether(std::uint32_t object, std::span<const Ray* const> rays, unsigned lanes,
+                            Faces faces, Statistics& counts, std::span<Found* const> best) const {
+  const auto each = [&](const auto& use) {
+    for (unsigned i = 0; i < rays.size(); ++i)
+      if (lanes >> i & 1) use(i);
+  };
+  const Instance* mesh = object < plain_ && objects_[object].mesh ? &objects_[object] : nullptr;
+  if (!mesh || faces != Faces::both || (lanes & (lanes - 1)) == 0) {
+    each([&](unsigned i) {
+      if (object >= plain_)
+        closestInUse(object, uses_, {*rays[i], faces, 0}, counts, *best[i]);
+      else
+        closestOf(object, *rays[i], faces, counts, *best[i]);
+    });
+    return;
+  }
+  const auto inItsSpace = [&](const Ray* const* own) {
+    MeshHit met[RayPacket::kRays];
+    each([&](unsigned i) { met[i].hit.t = best[i]->t; });
+    mesh->mesh->closest(own, met, lanes, MeshCounts{counts.nodes, counts.tests[mesh->kind]});
+    each([&](unsigned i) {
+      if (met[i].triangle != Bvh::kNoItem) take(met[i], object, mesh->kind, counts, *best[i]);
+    });
+  };
+  if (!mesh->placement.moved()) return inItsSpace(rays.data());
+  Ray moved[RayPacket::kRays];
+  const Ray* own[RayPacket::kRays];
+  each([&](unsigned i) {
+    moved[i] = mesh->placement.into(*rays[i]);
+    own[i] = &moved[i];
+  });
+  inItsSpace(own);
+}
+
 template <class Nodes>
 inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces faces,
                              QueryCounts<Nodes>& counts, Found& best) const {
@@ -98,7 +161,7 @@ inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces fa
   const auto inItsSpace = [&](const Ray& ray) {
     const MeshTree* mesh = instance.mesh.get();
     if (!mesh) return closestOfShape(instance, object, ray, counts, best);
-    const std::size_t kind = instance.kind;
+    const std::uint32_t kind = instance.kind;
     MeshHit met;
     met.hit.t = best.t;
     enter(counts.nodes, object);
@@ -106,10 +169,7 @@ inline void World::closestOf(std::uint32_t object, const Ray& worldRay, Faces fa
                            ? mesh->closest(ray, met, nullptr, MeshCounts{counts.nodes, counts.tests[kind]})
                            : closestSeen(object, ray, faces, counts, met);
     enter(counts.nodes, NodeWatch::kTop);
-    // At the same distance the object that comes first in the scene counts.
-    if (!found || (met.hit.t == best.t && object >= best.object)) return;
-    ++counts.hits[kind];
-    best = {met.hit.t, object, met.triangle, met.hit};
+    if (found) take(met, object, kind, counts, best);
   };
   const Placement& placement = instance.placement;
   placement.moved() ? inItsSpace(placement.into(worldRay)) : inItsSpace(worldRay);
