@@ -23,7 +23,7 @@ struct Case {
 /// Nanoseconds of a call: one after another if each needs the last result, else overlapping.
 Real nanoseconds(Real (*f)(Real), const std::vector<Real>& arguments, bool needsLast) {
   Real least = kInfinity;
-  volatile Real result = 0;
+  [[maybe_unused]] volatile Real result = 0;
   for (int pass = 0; pass < 20; ++pass) {
     const Real start = threadSeconds();
     Real sum = 0;

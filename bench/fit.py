@@ -68,7 +68,7 @@ if __name__ == '__main__':
     reach = mp.log(2) / 256 * mp.mpf('1.01')
     fit('exp r = 1 + r + r^2 p(r), relative to exp r', lambda r: (mp.exp(r) - 1 - r) / r ** 2, lambda r: r ** 2, -reach, reach, 3)
     fit('exp r = 1 + r + r^2 p(r), relative to exp r - 1', lambda r: (mp.exp(r) - 1 - r) / r ** 2, lambda r: abs(r ** 2 / mp.expm1(r)), -reach, reach, 4)
-    near = mp.mpf(1) / 256 + mp.mpf(1) / 4096
+    near = mp.mpf('0.00585')
     fit('log(1 + r) = r + r^2 p(r)', lambda r: (mp.log1p(r) - r) / r ** 2, lambda r: abs(r ** 2 / mp.log1p(r)), -near, near, 5)
     fit('log(1 + r) = r - r^2 / 2 + r^3 p(r)', lambda r: (mp.log1p(r) - r + r ** 2 / 2) / r ** 3,
         lambda r: abs(r ** 3 / mp.log1p(r)), -near, near, 5)

@@ -396,14 +396,14 @@ std::uint64_t hashOf(const std::function<Real(Real)>& f) {
 TEST(Elementary, HasTheSameBitsEverywhere) {
   const std::vector<std::pair<std::string, std::string>> wanted = {
       {"sin", "52789c031cb214c1"},   {"cos", "160ba5e0a30eb93c"},     {"tan", "52429dcb580c34fc"},
-      {"asin", "7b685c2778c84430"},  {"acos", "e263a62e0047811d"},    {"atan", "d839d8514fda836d"},
+      {"asin", "6f94fab6b53de5ba"},  {"acos", "fbca2a95891610f8"},    {"atan", "e4d36ef657596f6b"},
       {"exp", "59f670bf38cf85e8"},   {"exp2", "a20a4d70dd5b73ed"},    {"expm1", "a6378c2e39b73c2d"},
-      {"log", "9cf41e77d55f1725"},   {"log2", "31ad94f398d6c2d9"},    {"log10", "73d5b88802e6e0e4"},
+      {"log", "c6aed7bac808490b"},   {"log2", "31ad94f398d6c2d9"},    {"log10", "73d5b88802e6e0e4"},
       {"log1p", "05498d9b927619a3"}, {"sinh", "84a1228f1e56797c"},    {"cosh", "3fc53967a9d521e1"},
       {"tanh", "d3fd5bd74d562a9a"},  {"asinh", "95e8671eb27ad8f9"},   {"acosh", "9c78d47f6ee25bbf"},
-      {"atanh", "37f1c3028c72f990"}, {"cbrt", "af7890371caf7793"},    {"erf", "29c7ef0584299404"},
-      {"erfc", "1d94489be5182dfc"},  {"pow", "3a910d6f734a0a89"},     {"atan2", "76e7cc191731f82b"},
-      {"hypot", "16c26de62faf7d6b"}, {"logGamma", "19fe881e46d8e4eb"}};
+      {"atanh", "37f1c3028c72f990"}, {"cbrt", "af7890371caf7793"},    {"erf", "3d2fa9c87930d5ca"},
+      {"erfc", "d1df4a5b063022ca"},  {"pow", "3a910d6f734a0a89"},     {"atan2", "9d2f9f0df6a5d51b"},
+      {"hypot", "16c26de62faf7d6b"}, {"logGamma", "c13b992d1647d3ad"}};
   std::vector<std::pair<std::string, std::string>> found;
   for (const Function& f : functions()) found.emplace_back(f.name, hexText(hashOf(f.ours)));
   for (const FunctionOfTwo& f : functionsOfTwo())

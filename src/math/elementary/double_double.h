@@ -55,12 +55,18 @@ constexpr DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
 
 constexpr Real rounded(const DoubleDouble& a) { return a.high + a.low; }
 
-/// c[0] + c[1] x + c[2] x^2 + ... by Horner's rule.
+/// c[0] + c[1] x + c[2] x^2 + ... by Horner's rule, for even and odd powers apart: a processor works on both at once.
 template <int N>
 constexpr Real polynomial(Real x, const Real (&c)[N]) {
-  Real sum = c[N - 1];
-  for (int i = N - 2; i >= 0; --i) sum = sum * x + c[i];
-  return sum;
+  static_assert(N >= 3);
+  const Real square = x * x;
+  Real last = c[N - 1], other = c[N - 2];
+  for (int i = N - 3; i >= 0; --i) {
+    const Real next = last * square + c[i];
+    last = other;
+    other = next;
+  }
+  return other + x * last;
 }
 
 }  // namespace trace

@@ -34,7 +34,7 @@ constexpr std::array<DoubleDouble, kSteps> kPowersOfTwo = powersOfTwo();
 
 /// The part of log(x) that x's upper bits determine.
 struct LogStep {
-  Real inverse = 1;        ///< one over the middle c of these numbers, in 12 bits
+  Real inverse = 1;        ///< one over the middle c of these numbers, in 8 bits
   Real high = 0, low = 0;  ///< the logarithm of 1 / inverse; `high` is a multiple of 2^-42
 };
 constexpr Bits kFirstStep = 0x3fe6800000000000u;  // 0.703125: logarithms of numbers near 1 come from one step
@@ -43,7 +43,8 @@ constexpr auto logSteps() {
   std::array<LogStep, kSteps> table{};
   for (int j = 0; j < kSteps; ++j) {
     const auto middle = bitCast<Real>(kFirstStep + (static_cast<Bits>(j) << 45));
-    const Real inverse = static_cast<Real>(static_cast<int>(2048 / middle + 0.5)) / 2048;
+    const Real steps = middle < 1 ? 128 : 256;  // x / c - 1 is a double
+    const Real inverse = static_cast<Real>(static_cast<int>(steps / middle + 0.5)) / steps;
     const DoubleDouble z = DoubleDouble{1 - inverse} / DoubleDouble{1 + inverse}, square = z * z;
     DoubleDouble power = z, sum{0};  // log(1 / inverse) = 2 (z + z^3/3 + z^5/5 + ...)
     for (int k = 1; k < 48 && power.high != 0; k += 2) {
@@ -126,15 +127,14 @@ inline Bits normalBits(Real x) {
 /// The logarithm. Its low part may be larger than half a unit in the last place of the high part.
 inline DoubleDouble logOf(Bits bits) {
   const LogParts x = logParts(bits);
-  const Real r = x.first + x.second, rLow = (x.first - r) + x.second;  // exact: r is where `second` is larger
-  const Real square = x.first * x.first, squareLow = x.second * (x.first + r),
-             r2 = square + squareLow;  // so is square
+  const Real r = x.first + x.second, square = x.first * x.first;  // exact, both
+  const Real squareLow = x.second * (x.first + r), r2 = square + squareLow;
   const DoubleDouble whole = quickSum(x.k * kLn2High + x.step.high, r),
                      sum = quickSum(whole.high, -0.5 * square);
-  const Real rest = (0x1.5555555555557p-2 + r * -0x1.0000000000003p-2) +
-                    r2 * ((0x1.9999999856bfdp-3 + r * -0x1.55555553eb678p-3) +
-                          r2 * (0x1.249436905a513p-3 + r * -0x1.0001e58fafa5bp-3));
-  const Real low = (rLow + (x.k * kLn2Low + x.step.low)) + (whole.low + sum.low) - 0.5 * squareLow;
+  const Real rest = (0x1.5555555555564p-2 + r * -0x1.0000000000014p-2) +
+                    r2 * ((0x1.999999949f6edp-3 + r * -0x1.5555554fc0d65p-3) +
+                          r2 * (0x1.24961d65f27b7p-3 + r * -0x1.0003c4aa2df43p-3));
+  const Real low = (x.k * kLn2Low + x.step.low) + (whole.low + sum.low) - 0.5 * squareLow;
   return {sum.high, low + r2 * r * rest};
 }
 
@@ -227,12 +227,12 @@ Real log(Real x) {
     bits = normalBits(x);
   }
   const LogParts at = logParts(bits);
-  const Real r = at.first + at.second, low = (at.first - r) + at.second, square = r * r;
+  const Real r = at.first + at.second, square = r * r;
   const DoubleDouble sum = quickSum(at.k * kLn2High + at.step.high, r);
-  const Real rest = (-0x1.0000000000001p-1 + r * 0x1.5555555555557p-2) +
-                    square * ((-0x1.fffffffee2903p-3 + r * 0x1.999999984ba0cp-3) +
-                              square * (-0x1.55574f12601b7p-3 + r * 0x1.24943ccfdba85p-3));
-  return sum.high + (sum.low + (low + (at.k * kLn2Low + at.step.low)) + square * rest);
+  const Real rest = (-0x1.0000000000005p-1 + r * 0x1.5555555555565p-2) +
+                    square * ((-0x1.fffffffb99789p-3 + r * 0x1.99999994736fap-3) +
+                              square * (-0x1.5559421171f2ap-3 + r * 0x1.249629d6ec86dp-3));
+  return sum.high + (sum.low + (at.k * kLn2Low + at.step.low) + square * rest);
 }
 
 Real log2(Real x) {
