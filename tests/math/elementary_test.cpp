@@ -402,7 +402,7 @@ TEST(Elementary, HasTheSameBitsEverywhere) {
       {"log1p", "05498d9b927619a3"}, {"sinh", "84a1228f1e56797c"},    {"cosh", "3fc53967a9d521e1"},
       {"tanh", "d3fd5bd74d562a9a"},  {"asinh", "95e8671eb27ad8f9"},   {"acosh", "9c78d47f6ee25bbf"},
       {"atanh", "37f1c3028c72f990"}, {"cbrt", "af7890371caf7793"},    {"erf", "3d2fa9c87930d5ca"},
-      {"erfc", "d1df4a5b063022ca"},  {"pow", "3a910d6f734a0a89"},     {"atan2", "9d2f9f0df6a5d51b"},
+      {"erfc", "7dd610e287f41615"},  {"pow", "3a910d6f734a0a89"},     {"atan2", "9d2f9f0df6a5d51b"},
       {"hypot", "16c26de62faf7d6b"}, {"logGamma", "c13b992d1647d3ad"}};
   std::vector<std::pair<std::string, std::string>> found;
   for (const Function& f : functions()) found.emplace_back(f.name, hexText(hashOf(f.ours)));

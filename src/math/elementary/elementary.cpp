@@ -56,16 +56,16 @@ Real tailOf(Real x) {
 }
 
 /// erf of |x| below 3/4
-Real middleOf(Real x) {
+DoubleDouble middleOf(Real x) {
   const Real z = x * x;
   const DoubleDouble product = exactProduct(x, 0x1.20dd750429b6dp+0);
-  return product.high +
-         (product.low +
-          x * (0x1.1ae3a914fed80p-56 +
-               z * polynomial(z, {-0x1.812746b0379e2p-2, 0x1.ce2f21a0425cbp-4, -0x1.b82ce3125b72ep-6,
-                                  0x1.565bcd03fb9a7p-8, -0x1.c02db13b5b182p-11, 0x1.f9a2b2525c84ap-14,
-                                  -0x1.f4c60cdc49bafp-17, 0x1.b910b4d7cdf75p-20, -0x1.565abef630a6cp-23,
-                                  0x1.8a6acfcf86ffbp-27})));
+  return {product.high,
+          product.low +
+              x * (0x1.1ae3a914fed80p-56 +
+                   z * polynomial(z, {-0x1.812746b0379e2p-2, 0x1.ce2f21a0425cbp-4, -0x1.b82ce3125b72ep-6,
+                                      0x1.565bcd03fb9a7p-8, -0x1.c02db13b5b182p-11, 0x1.f9a2b2525c84ap-14,
+                                      -0x1.f4c60cdc49bafp-17, 0x1.b910b4d7cdf75p-20, -0x1.565abef630a6cp-23,
+                                      0x1.8a6acfcf86ffbp-27}))};
 }
 
 }  // namespace
@@ -142,12 +142,15 @@ Real hypot(Real x, Real y, Real z) { return lengthOf<3>({x, y, z}); }
 
 Real erf(Real x) {
   const Real size = std::abs(x);
-  if (!(size >= 0.75)) return size < 0x1p-1000 ? x * 0x1.20dd750429b6dp+0 : middleOf(x);
+  if (!(size >= 0.75)) return size < 0x1p-1000 ? x * 0x1.20dd750429b6dp+0 : rounded(middleOf(x));
   return std::copysign(size > 6 ? 1 : 1 - tailOf(size), x);
 }
 
 Real erfc(Real x) {
-  if (!(std::abs(x) >= 0.75)) return 1 - erf(x);
+  if (!(std::abs(x) >= 0.75)) {
+    const DoubleDouble below = middleOf(x), rest = quickSum(1, -below.high);
+    return rest.high + (rest.low - below.low);
+  }
   return x > 0 ? tailOf(x) : x < -6 ? 2 : 2 - tailOf(-x);
 }
 
