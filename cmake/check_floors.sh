@@ -3,7 +3,7 @@
 # upward, sideways or through "..". CMake's include paths already keep floors apart; this shows it, and
 # catches what a relative path could smuggle past them. It also fails when another file than those that need it
 # sees the structs of all shapes, lights, materials or textures, which is slow to compile, and when code asks which
-# integrator is chosen, or for the operating system.
+# integrator is chosen, or for the operating system, and when it calls a function of the C library that systems round differently.
 # Usage: check_floors.sh [checkout]
 set -euo pipefail
 
@@ -54,6 +54,11 @@ if grep -rnE "^ *# *(if|elif|ifdef|ifndef).*($system)|^#include <($headers)(\.h)
 fi
 if grep -rnE 'std::(bit_cast|rot[lr]|jthread|stop_token|ranges|views|source_location|atomic_ref)|<=>' src --exclude-dir=windows --exclude=bits.h; then
   echo 'the library of the compiler for browsers lacks this; base/bits.h has some of it'
+  exit 1
+fi
+functions='a?(sin|cos|tan)h?|atan2|exp2?|expm1|log(2|10|1p)?|pow|cbrt|hypot|erfc?|[lt]gamma|complex|polar|[a-z_]+_distribution'
+if grep -rnE "std::($functions)\>|^#include <(complex|random)>" src --include='*.h' --include='*.cpp' | grep -v '^src/base/os/'; then
+  echo 'its last bits differ from system to system; math/elementary.h and math/complex.h have one that does not'
   exit 1
 fi
 while read -r folder; do

@@ -118,7 +118,9 @@ struct Bvh::Builder {
     addForest(index, 8, children);
     // Denser ones first, in the order in which a query for any hit takes the lanes: see traverse().
     const std::span some(children.all.begin(), children.count);
-    std::sort(some.begin(), some.end(), [](const auto& a, const auto& b) { return a.density < b.density; });
+    std::sort(some.begin(), some.end(), [](const auto& a, const auto& b) {
+      return a.density != b.density ? a.density < b.density : a.branch < b.branch;
+    });
     std::rotate(some.begin(), some.end() - 1, some.end());
     const auto number = static_cast<std::uint32_t>(bvh.nodes_.size());
     bvh.nodes_.emplace_back();

@@ -10,6 +10,7 @@
 #include "geometry/mesh/mesh_repair.h"
 #include "geometry/shapes/solids/csg_tree.h"
 #include "geometry/traced.h"
+#include "math/elementary.h"
 #include "shading/lights/ambient_light.h"
 #include "shading/lights/directional_light.h"
 
@@ -238,7 +239,7 @@ Camera framing(const Box3& box, Real fov, Real aspect, const Vec3& viewdir) {
   const Box3 seen = nothing ? Box3{{-1, -1, -1}, {1, 1, 1}} : box;
   const CameraFrame axes = frame(camera, CameraAxes::orthonormal);
   const Vec3 right = normalize(axes.right), up = normalize(axes.up);
-  const Real slope = std::tan(camera.fov * kPi / 360) / kMargin;
+  const Real slope = math::tan(camera.fov * kPi / 360) / kMargin;
   Real distance = 0;  // from the centre, so that every corner is inside the picture's edges
   for (int i = 0; i < 8; ++i) {
     const Vec3 corner = Vec3{i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5};

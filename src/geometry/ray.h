@@ -21,6 +21,9 @@ struct Ray {
 struct Crossing {
   Real t = 0;
   std::int64_t part = 0;  ///< which face, cap or triangle of the shape; the shape's own numbering
+
+  /// Nearer first; at the same distance the earlier part.
+  bool before(const Crossing& other) const { return t != other.t ? t < other.t : part < other.part; }
 };
 
 /// The crossings that a query still wants: those at from < t <= to, which may shrink while they are visited.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/elementary.h"
+
 namespace trace {
 
 struct Color {
@@ -29,7 +31,9 @@ inline bool isFinite(const Color& c) {
 }
 constexpr double maxComponent(const Color& c) { return std::max(c.r, std::max(c.g, c.b)); }
 /// Each channel raised to the power: kt^distance of an absorbing medium.
-inline Color pow(const Color& c, double e) { return {std::pow(c.r, e), std::pow(c.g, e), std::pow(c.b, e)}; }
+inline Color pow(const Color& c, double e) {
+  return {math::pow(c.r, e), math::pow(c.g, e), math::pow(c.b, e)};
+}
 constexpr Color lerp(double t, const Color& a, const Color& b) { return a * (1 - t) + b * t; }
 inline Color clamp01(const Color& c) {
   return {std::clamp(c.r, 0.0, 1.0), std::clamp(c.g, 0.0, 1.0), std::clamp(c.b, 0.0, 1.0)};

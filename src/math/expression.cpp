@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "math/elementary.h"
 
 namespace trace {
 
@@ -194,17 +195,17 @@ Expression::Expression(std::string_view text, Variables known) {
 namespace {
 
 // The same words for numbers and intervals.
-using std::cos, std::exp, std::log, std::sin;
+using math::cos, math::exp, math::log, math::sin;
 Real square(Real a) { return a * a; }
 Real root(Real a) { return std::sqrt(max(a, 0)); }
 Interval root(const Interval& a) { return sqrt(a); }
-Real wholePower(Real a, int n) { return std::pow(a, n); }
+Real wholePower(Real a, int n) { return math::pow(a, n); }
 Interval wholePower(const Interval& a, int n) { return power(a, n); }
-Real realPower(Real a, Real e) { return std::pow(max(a, 0), e); }
+Real realPower(Real a, Real e) { return math::pow(max(a, 0), e); }
 Interval realPower(const Interval& a, Real e) { return power(a, e); }
 Real magnitude(Real a) { return std::abs(a); }
 Interval magnitude(const Interval& a) { return abs(a); }
-Real tangent(Real a) { return std::tan(a); }
+Real tangent(Real a) { return math::tan(a); }
 Interval tangent(const Interval& a) {
   return a.high - a.low < kPi ? sin(a) / cos(a) : Interval::everything();
 }

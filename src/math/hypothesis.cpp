@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/elementary.h"
+
 namespace trace {
 
 Moments momentsOf(std::span<const double> values) {
@@ -17,9 +19,9 @@ double incompleteBeta(double a, double b, double x) {
   if (!(x > 0)) return 0;
   if (!(x < 1)) return 1;
   if (x > (a + 1) / (a + b + 2)) return 1 - incompleteBeta(b, a, 1 - x);
-  const double front =
-      std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x)) /
-      a;
+  const double front = math::exp(math::logGamma(a + b) - math::logGamma(a) - math::logGamma(b) +
+                                 a * math::log(x) + b * math::log1p(-x)) /
+                       a;
   // Lentz's way: numerators and denominators of the fraction, one after the other.
   constexpr double kTiny = 1e-300, kClose = 1e-15;
   constexpr int kMost = 1000;
@@ -59,7 +61,7 @@ double kolmogorovSmirnov(std::vector<double> values) {
   constexpr double kSmall = 0.2;  // below it the chance is 1 to all digits, and the sum is slow
   if (z < kSmall) return 1;
   double sum = 0;
-  for (int k = 1; k <= 100; ++k) sum += (k % 2 ? 2 : -2) * std::exp(-2 * k * k * z * z);
+  for (int k = 1; k <= 100; ++k) sum += (k % 2 ? 2 : -2) * math::exp(-2 * k * k * z * z);
   return std::clamp(sum, 0.0, 1.0);
 }
 

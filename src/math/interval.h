@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "math/elementary.h"
 #include "math/vec.h"
 
 namespace trace {
@@ -68,18 +69,18 @@ inline Interval sqrt(const Interval& a) {
   return {max(s.low, 0), s.high};
 }
 inline Interval exp(const Interval& a) {
-  const Interval e = outward(std::exp(a.low), std::exp(a.high));
+  const Interval e = outward(math::exp(a.low), math::exp(a.high));
   return {max(e.low, 0), e.high};
 }
 /// The logarithm of the part of it that is positive.
 inline Interval log(const Interval& a) {
   if (!(a.high > 0)) return Interval::everything();
-  return outward(a.low > 0 ? std::log(a.low) : -kInfinity, std::log(a.high));
+  return outward(a.low > 0 ? math::log(a.low) : -kInfinity, math::log(a.high));
 }
 inline Interval sin(const Interval& a) {
   // Between neighbouring extrema the sine is monotone; far out, where doubles are coarse, it is anything.
   if (!(a.high - a.low < 2 * kPi && std::abs(a.low) < 1e9)) return {-1, 1};
-  const Real s = std::sin(a.low), t = std::sin(a.high);
+  const Real s = math::sin(a.low), t = math::sin(a.high);
   Interval r = outward(min(s, t), max(s, t));
   constexpr Real kSlack = 1e-6;  // extrema this near are taken to be inside: always safe
   const auto holds = [&](Real extremum) {
@@ -95,7 +96,7 @@ inline Interval cos(const Interval& a) { return sin(outward(a.low + kPi / 2, a.h
 inline Interval power(const Interval& a, int n) {
   if (n == 0) return 1;
   const Interval b = n % 2 == 0 ? abs(a) : a;
-  const auto raised = [n](Real x) { return n == 3 ? x * x * x : n == 4 ? x * x * (x * x) : std::pow(x, n); };
+  const auto raised = [n](Real x) { return n == 3 ? x * x * x : n == 4 ? x * x * (x * x) : math::pow(x, n); };
   Interval r = n == 1 ? a : outward(raised(b.low), raised(b.high));
   if (n % 2 == 0) r.low = max(r.low, 0);
   return r;
@@ -104,7 +105,7 @@ inline Interval power(const Interval& a, int n) {
 inline Interval power(const Interval& a, Real e) {
   const Real low = max(a.low, 0);
   if (!(a.high >= 0) || (e < 0 && low == 0)) return Interval::everything();
-  const Real p = std::pow(low, e), q = std::pow(a.high, e);
+  const Real p = math::pow(low, e), q = math::pow(a.high, e);
   const Interval r = outward(min(p, q), max(p, q));
   return {max(r.low, 0), r.high};
 }

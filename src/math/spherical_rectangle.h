@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/elementary.h"
 #include "math/vec.h"
 
 namespace trace {
@@ -39,7 +40,7 @@ class SphericalRectangle {
   /// By two numbers from 0 up to 1: on the rectangle.
   Vec3 place(const Vec2& u) const {
     const Real turn = before_ + u.x * solidAngle_;
-    const Real f = (std::cos(turn) * normalLow_ - normalHigh_) / std::sin(turn);
+    const Real f = (math::cos(turn) * normalLow_ - normalHigh_) / math::sin(turn);
     const Real c = std::clamp(std::copysign(1 / std::sqrt(f * f + normalLow_ * normalLow_), f), -1.0, 1.0);
     const Real x = std::clamp(-c * z_ / std::sqrt(std::max(1e-300, 1 - c * c)), x0_, x1_);
     const Real away2 = x * x + z_ * z_;
@@ -64,7 +65,7 @@ class SphericalRectangle {
   }
   /// The sum of two angles, from 0 to 2 pi.
   static Real angles(const Vec2& a, const Vec2& b) {
-    const Real sum = std::atan2(a.x * b.y + a.y * b.x, a.x * b.x - a.y * b.y);
+    const Real sum = math::atan2(a.x * b.y + a.y * b.x, a.x * b.x - a.y * b.y);
     return sum < 0 ? sum + 2 * kPi : sum;
   }
 

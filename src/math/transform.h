@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/box.h"
+#include "math/elementary.h"
 #include "math/vec.h"
 
 namespace trace {
@@ -26,7 +27,7 @@ struct Affine {
   }
   /// Right-handed, about a unit `axis`, by `angle` radians (Rodrigues).
   static Affine rotation(const Vec3& axis, Real angle) {
-    const Real s = std::sin(angle), c = std::cos(angle), k = 1 - c;
+    const Real s = math::sin(angle), c = math::cos(angle), k = 1 - c;
     const Vec3& a = axis;
     Affine m;
     m.row[0] = {a.x * a.x * k + c, a.x * a.y * k - a.z * s, a.x * a.z * k + a.y * s};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "math/elementary.h"
 #include "math/perpendicular.h"
 #include "math/vec.h"
 
@@ -12,8 +13,8 @@ namespace trace {
 
 inline constexpr Vec2 kCenter{0.5, 0.5};
 
-/// Cosine and sine of an angle between -pi / 4 and pi / 4 by their series, to a unit in the last place: the same
-/// bits on every machine, whatever its C library.
+/// Cosine and sine of an angle between -pi / 4 and pi / 4 by their series, to a unit in the last place: the
+/// same bits on every machine, whatever its C library.
 inline Vec2 onEighth(Real angle) {
   const Real z = angle * angle;
   const auto series = [z](std::initializer_list<Real> factors) {
@@ -23,8 +24,9 @@ inline Vec2 onEighth(Real angle) {
   };
   return {1 + z * series({1 / 20922789888000.0, -1 / 87178291200.0, 1 / 479001600.0, -1 / 3628800.0,
                           1 / 40320.0, -1 / 720.0, 1 / 24.0, -0.5}),
-          angle + angle * z * series({-1 / 1307674368000.0, 1 / 6227020800.0, -1 / 39916800.0, 1 / 362880.0,
-                                      -1 / 5040.0, 1 / 120.0, -1 / 6.0})};
+          angle + angle * z *
+                      series({-1 / 1307674368000.0, 1 / 6227020800.0, -1 / 39916800.0, 1 / 362880.0,
+                              -1 / 5040.0, 1 / 120.0, -1 / 6.0})};
 }
 
 /// Cosine and sine of that part of a turn, likewise; 0 <= turns.
@@ -51,11 +53,11 @@ inline Vec2 toPolygon(const Vec2& u, int corners, Real angle) {
   const Real r2 = disk.x * disk.x + disk.y * disk.y;
   if (r2 == 0) return {0, 0};
   // The square root of an even number in a triangle's height: the share of the way to the side.
-  const Real turn = (std::atan2(disk.y, disk.x) / (2 * kPi) + 0.5) * corners;
+  const Real turn = (math::atan2(disk.y, disk.x) / (2 * kPi) + 0.5) * corners;
   const Real corner = std::floor(turn), along = turn - corner, out = std::sqrt(r2);
   const auto at = [&](Real n) {
-    const Real a = angle + 2 * kPi * n / corners;
-    return Vec2{std::cos(a), std::sin(a)};
+    const math::SinCos a = math::sincos(angle + 2 * kPi * n / corners);
+    return Vec2{a.cos, a.sin};
   };
   const Vec2 p = at(corner), q = at(corner + 1);
   return {out * (p.x + (q.x - p.x) * along), out * (p.y + (q.y - p.y) * along)};

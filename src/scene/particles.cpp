@@ -5,6 +5,7 @@
 
 #include "base/budget.h"
 #include "base/error.h"
+#include "math/elementary.h"
 #include "math/noise.h"
 
 namespace trace {
@@ -50,7 +51,7 @@ void collide(const Particles& system, Motion& m, const Vec3& normal, Real depth)
 /// Over a short time; the drag's exponential keeps it stable however strong the drag is.
 void advance(const Particles& system, Motion& m, Real dt) {
   checkBudget();
-  const Real kept = std::exp(-system.drag * dt);
+  const Real kept = math::exp(-system.drag * dt);
   m.velocity = system.wind + (m.velocity - system.wind) * kept + system.gravity * dt;
   m.place += m.velocity * dt;
   for (const auto& [x, y, z, d] : system.planes) {

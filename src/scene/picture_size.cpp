@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "math/elementary.h"
+
 namespace trace {
 namespace {
 
@@ -63,7 +65,7 @@ Camera cameraFor(const Scene& scene, const Settings& settings) {
   const Real stretch = free.keeps == FreeAspect::Keeps::upward   ? 1
                        : free.keeps == FreeAspect::Keeps::across ? across
                                                                  : max(1, across);
-  if (stretch != 1) camera.fov = std::atan(std::tan(camera.fov * kPi / 360) * stretch) * 360 / kPi;
+  if (stretch != 1) camera.fov = math::atan(math::tan(camera.fov * kPi / 360) * stretch) * 360 / kPi;
   return camera;
 }
 

@@ -3,7 +3,6 @@
 // picture's metadata. A field without a row does not compile.
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <string>
 
@@ -11,6 +10,7 @@
 #include "image/development/development.h"
 #include "image/development/tone.h"
 #include "image/film/pixel_filter.h"
+#include "math/elementary.h"
 #include "shading/cameras/camera.h"
 #include "shading/environment_map.h"
 #include "shading/rules.h"
@@ -259,7 +259,7 @@ inline Development developmentOf(const Settings& s) {
 }
 
 /// The luminance that shows as white.
-inline double whiteOf(const Settings& s) { return std::exp2(-s.exposure); }
+inline double whiteOf(const Settings& s) { return math::exp2(-s.exposure); }
 
 inline Rules rulesOf(const Settings& s) {
   return {s.highlight,    s.shininessScale,   s.mirrorDefault,

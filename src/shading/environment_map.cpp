@@ -9,6 +9,7 @@
 
 #include "base/budget.h"
 #include "base/parallel.h"
+#include "math/elementary.h"
 #include "math/perpendicular.h"
 
 namespace trace {
@@ -123,14 +124,14 @@ EnvironmentMap::Spot EnvironmentMap::cubeSpot(const Vec3& d) {
 
 EnvironmentMap::Spot EnvironmentMap::spot(const Vec3& d) const {
   if (kind_ == EnvironmentKind::cube) return cubeSpot(d);
-  const Real across = std::hypot(d.x, d.z);
+  const Real across = math::hypot(d.x, d.z);
   if (kind_ == EnvironmentKind::latLong) {
-    const Real around = across > 0 ? std::atan2(d.x, -d.z) : 0;
-    return {0, {0.5 + around / (2 * kPi), std::atan2(across, d.y) / kPi}};
+    const Real around = across > 0 ? math::atan2(d.x, -d.z) : 0;
+    return {0, {0.5 + around / (2 * kPi), math::atan2(across, d.y) / kPi}};
   }
-  const Real off = std::hypot(d.x, d.y);
+  const Real off = math::hypot(d.x, d.y);
   if (off == 0) return {0, {d.z < 0 ? 0.5 : 1, 0.5}};
-  const Real radius = std::atan2(off, -d.z) / (2 * kPi);
+  const Real radius = math::atan2(off, -d.z) / (2 * kPi);
   return {0, {0.5 + radius * (d.x / off), 0.5 - radius * (d.y / off)}};
 }
 
@@ -141,13 +142,15 @@ Vec3 EnvironmentMap::direction(const Spot& s) const {
   }
   if (kind_ == EnvironmentKind::latLong) {
     const Real around = (s.uv.x - 0.5) * 2 * kPi, down = s.uv.y * kPi;
-    return {std::sin(down) * std::sin(around), std::cos(down), -std::sin(down) * std::cos(around)};
+    const math::SinCos turn = math::sincos(around), fall = math::sincos(down);
+    return {fall.sin * turn.sin, fall.cos, -fall.sin * turn.cos};
   }
-  const Real x = 2 * s.uv.x - 1, y = 1 - 2 * s.uv.y, radius = std::hypot(x, y);
+  const Real x = 2 * s.uv.x - 1, y = 1 - 2 * s.uv.y, radius = math::hypot(x, y);
   if (radius > 1) return {};
   if (radius == 0) return {0, 0, -1};
-  const Real off = std::sin(radius * kPi) / radius;
-  return {off * x, off * y, -std::cos(radius * kPi)};
+  const math::SinCos fall = math::sincos(radius * kPi);
+  const Real off = fall.sin / radius;
+  return {off * x, off * y, -fall.cos};
 }
 
 Color EnvironmentMap::at(const Spot& s) const {
@@ -175,7 +178,7 @@ Color EnvironmentMap::at(const Spot& s) const {
       const int cx = std::clamp(x0 + i, 0, p.width - 1), cy = std::clamp(y0 + j, 0, p.height - 1);
       const Real weight = (i == 0 ? 1 - fx : fx) * (j == 0 ? 1 - fy : fy);
       const Real half = p.width / 2.0;
-      if (weight == 0 || std::hypot(cx + 0.5 - half, cy + 0.5 - half) > half) continue;
+      if (weight == 0 || math::hypot(cx + 0.5 - half, cy + 0.5 - half) > half) continue;
       sum += p.at(cx, cy) * weight;
       weights += weight;
     }
@@ -243,11 +246,11 @@ EnvironmentMap EnvironmentMap::blurred(Real angle, int threads) const {
   std::vector<Sample> samples(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     const Real share = (k + 0.5) / count;
-    const Real off = std::acos(1 - share * (1 - std::cos(cone)));
+    const Real off = math::acos(1 - share * (1 - math::cos(cone)));
     const Real around = k * kPi * (3 - std::sqrt(5.0));
     samples[static_cast<std::size_t>(k)] = {
-        {std::sin(off) * std::cos(around), std::sin(off) * std::sin(around), std::cos(off)},
-        1 + std::cos(kPi * off / cone)};
+        {math::sin(off) * math::cos(around), math::sin(off) * math::sin(around), math::cos(off)},
+        1 + math::cos(kPi * off / cone)};
   }
   return sampled(side, threads, [&](const Vec3& towards) {
     const Vec3 axis = normalize(towards);

@@ -1,6 +1,7 @@
 // The directions at a place of a surface that a material asks for.
 #pragma once
 
+#include "math/elementary.h"
 #include "math/perpendicular.h"
 #include "math/vec.h"
 
@@ -29,7 +30,7 @@ struct Frame {
     x = l > 0 ? x / l : perpendicularTo(normal);
     Vec3 y = cross(normal, x);
     if (angle != 0) {
-      const Real c = std::cos(angle), s = std::sin(angle);
+      const auto [s, c] = math::sincos(angle);
       const Vec3 turned = x * c + y * s;
       y = y * c - x * s;
       x = turned;

@@ -14,6 +14,7 @@
 
 #include "base/field.h"
 #include "math/color.h"
+#include "math/elementary.h"
 #include "math/vec.h"
 #include "math/warp.h"
 #include "shading/frame.h"
@@ -99,7 +100,8 @@ Struct mixFields(const Struct& a, const Struct& b, const Struct& c, const Real (
 
 inline Vec3 sphericalDirection(Real cosTheta, Real phi) {
   const Real sine = std::sqrt(max(0, 1 - cosTheta * cosTheta));
-  return {sine * std::cos(phi), sine * std::sin(phi), cosTheta};
+  const math::SinCos around = math::sincos(phi);
+  return {sine * around.cos, sine * around.sin, cosTheta};
 }
 /// Around the normal with density cos / pi.
 inline Vec3 cosineDirection(Vec2 u) {
@@ -110,10 +112,10 @@ inline Vec3 cosineDirection(Vec2 u) {
 inline Real cosineDensity(const Vec3& light) { return max(0, light.z) / kPi; }
 /// Around the axis z with density (n + 1) / (2 pi) cos^n.
 inline Vec3 powerDirection(Real n, Vec2 u) {
-  return sphericalDirection(std::pow(1 - u.x, 1 / (n + 1)), 2 * kPi * u.y);
+  return sphericalDirection(math::pow(1 - u.x, 1 / (n + 1)), 2 * kPi * u.y);
 }
 inline Real powerDensity(Real n, Real cosine) {
-  return cosine > 0 ? (n + 1) / (2 * kPi) * std::pow(cosine, n) : 0;
+  return cosine > 0 ? (n + 1) / (2 * kPi) * math::pow(cosine, n) : 0;
 }
 
 /// The half-way vector of two directions on one side of its plane; 0 if they are opposite.

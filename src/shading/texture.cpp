@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "math/elementary.h"
 #include "shading/textures/image_map.h"
 
 namespace trace {
@@ -126,9 +127,9 @@ namespace {
 /// Texture coordinates of a point.
 Vec2 mapped(Mapping mapping, const Vec3& p) {
   if (mapping == Mapping::plane) return {p.x, p.y};
-  const Real turn = std::atan2(p.z, p.x) / (2 * kPi), around = turn < 0 ? turn + 1 : turn;
+  const Real turn = math::atan2(p.z, p.x) / (2 * kPi), around = turn < 0 ? turn + 1 : turn;
   if (mapping == Mapping::cylinder) return {around, p.y};
-  return {around, 0.5 + std::atan2(p.y, std::hypot(p.x, p.z)) / kPi};
+  return {around, 0.5 + math::atan2(p.y, math::hypot(p.x, p.z)) / kPi};
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Runs the programs for Windows under Wine, and compares them with those of Linux. Ends with 1 if a test fails, a command
-# answers otherwise or a picture looks different.
+# answers otherwise or a picture has other bytes.
 #
 #   run.sh BUILD RAY [PART...]    BUILD: the folder of the build for Windows; RAY: the program for Linux; PART: test_base and the
-#                                 other test programs, commands, scenes, studio, functions; without one all but functions
+#                                 other test programs, commands, scenes, studio; without one all
 set -euo pipefail
 
 build="$(cd -- "$1" && pwd -P)" ray="$(readlink -f -- "$2")"
@@ -109,6 +109,7 @@ compareScenes() {
       echo "$name: the same bytes"
     else
       verdict="$("$ray" diff "$name-linux.exr" "$name-windows.exr" 2>&1 | head -n 3 | paste -sd ' ')" || true
+      failed+=("$name")
       echo "$name: $verdict"
     fi
   done
@@ -136,17 +137,6 @@ tryStudio() {
   echo "studio: $folder/window.png shows the window"
 }
 
-compareFunctions() {
-  cd "$work"
-  g++ -O2 -std=c++20 -ffp-contract=off "$root/tests/windows/functions.cpp" -o functions
-  x86_64-w64-mingw32-g++-posix -O2 -std=c++20 -ffp-contract=off -static "$root/tests/windows/functions.cpp" -o functions.exe
-  ./functions >functions.values
-  echo "Windows' functions, compared with those of Linux:"
-  wine functions.exe functions.values </dev/null | tr -d '\r'
-  echo "those of a processor without fused multiplication, on Linux:"
-  GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2_Usable,-AVX2,-FMA4 ./functions functions.values
-}
-
 if (($# == 0)); then
   set -- $(cd "$build/bin" && ls test_*.exe | sed 's/\.exe$//') commands scenes studio
 fi
@@ -155,7 +145,6 @@ for part in "$@"; do
     commands) compareCommands ;;
     scenes) compareScenes ;;
     studio) tryStudio ;;
-    functions) compareFunctions ;;
     *) runTests "$part" ;;
   esac
 done

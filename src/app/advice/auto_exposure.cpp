@@ -56,7 +56,8 @@ Real exposureFor(const Picture& picture, const Development& development) {
     if (isFinite(picture.pixels[i]) && luminanceOf(picture.pixels[i]) > kNothing * most) lit.push_back(i);
   if (lit.empty() || development.tone == Tone::stretch) return 0;
   const auto darker = [&](std::size_t a, std::size_t b) {
-    return luminanceOf(picture.pixels[a]) < luminanceOf(picture.pixels[b]);
+    const double first = luminanceOf(picture.pixels[a]), second = luminanceOf(picture.pixels[b]);
+    return first != second ? first < second : a < b;
   };
   const auto placeOf = [&](double share) {
     return lit.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(lit.size() - 1));

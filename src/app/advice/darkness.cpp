@@ -12,6 +12,7 @@
 #include "geometry/traced.h"
 #include "image/development/development.h"
 #include "image/srgb.h"
+#include "math/elementary.h"
 #include "render/lights/lamps.h"
 #include "render/picture/passes.h"
 #include "render/picture/render.h"
@@ -115,7 +116,7 @@ std::vector<Color> seenWith(const Scene& scene, const Settings& settings, const 
 }
 
 std::string twoDigits(double value) {
-  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+  const double unit = math::pow(10.0, std::floor(math::log10(value)) - 1);
   return toText(unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value / unit) * unit);
 }
 std::string rounded(const Color& c) {

@@ -9,6 +9,7 @@
 #include "app/advice/darkness.h"
 #include "image/development/development.h"
 #include "image/srgb.h"
+#include "math/elementary.h"
 #include "render/samples/sampler.h"
 #include "scene/integrators.h"
 
@@ -78,7 +79,7 @@ std::string missedTargetText(const Settings& settings, const Film& film) {
   if (10 * missed <= needed.size()) return "";
   const auto ninth = needed.begin() + 9 * std::ssize(needed) / 10;  // edges are the rest, and no noise
   std::nth_element(needed.begin(), ninth, needed.end());
-  const double samples = std::exp2(std::ceil(std::log2(*ninth)));
+  const double samples = math::exp2(std::ceil(math::log2(*ninth)));
   char text[200], cure[60] = "";
   if (samples <= kMost) std::snprintf(cure, sizeof cure, "; --spp %.0f brings nine of ten there", samples);
   std::snprintf(text, sizeof text, "; noisy: %s%.0f %% of the pixels miss the noise target of %.2g levels%s",

@@ -14,6 +14,7 @@
 
 #include "base/budget.h"
 #include "image/srgb.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -78,8 +79,8 @@ struct Brightening {
     switch (curve) {
       case Curve::none: return value;
       case Curve::srgb: return encoded(v);
-      case Curve::gamma22: return std::pow(v, 1 / 2.2);
-      case Curve::gamma18: return std::pow(v, 1 / 1.8);
+      case Curve::gamma22: return math::pow(v, 1 / 2.2);
+      case Curve::gamma18: return math::pow(v, 1 / 1.8);
       case Curve::scale: return value * factor;
       case Curve::lightScale: return encoded(linearOfSrgb(v) * factor);
     }
@@ -89,7 +90,7 @@ struct Brightening {
  private:
   /// srgbOfLinear() without the end at 1.
   static double encoded(double v) {
-    return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+    return v <= 0.0031308 ? 12.92 * v : 1.055 * math::pow(v, 1 / 2.4) - 0.055;
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include "app/compare/diff_cause.h"
 #include "base/find_field.h"
+#include "math/elementary.h"
 #include "render/rays/ray_tree.h"
 
 namespace trace {
@@ -51,7 +52,9 @@ Channels squaresBetween(const Picture& a, const Picture& b) {
 }
 
 /// The unit of the last of so many digits of a number.
-double unitOf(double number, int digits) { return std::pow(10, std::floor(std::log10(number)) + 1 - digits); }
+double unitOf(double number, int digits) {
+  return math::pow(10, std::floor(math::log10(number)) + 1 - digits);
+}
 
 std::string numberText(double value) {
   char text[40];
@@ -99,7 +102,7 @@ class ValueFit {
     }
     const double now = value_.now.r;
     const auto rung = [&](int i) {
-      return std::clamp(now * std::pow(value_.step, i), value_.least, value_.most);
+      return std::clamp(now * math::pow(value_.step, i), value_.least, value_.most);
     };
     int best = 0;
     double least = kHelps * before_;
@@ -193,21 +196,21 @@ class ValueFit {
   /// The number in the bracket that leaves least, by the golden section of its logarithm.
   double narrowed(double first, double second) const {
     constexpr double kGolden = 0.6180339887498949;
-    double low = std::log(std::min(first, second)), high = std::log(std::max(first, second));
+    double low = math::log(std::min(first, second)), high = math::log(std::max(first, second));
     double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
-    double byLeft = leftBy(std::exp(left)), byRight = leftBy(std::exp(right));
+    double byLeft = leftBy(math::exp(left)), byRight = leftBy(math::exp(right));
     for (int i = 0; i < kNarrowings; ++i) {
       if (byLeft <= byRight) {
         high = right, right = left, byRight = byLeft;
         left = high - kGolden * (high - low);
-        byLeft = leftBy(std::exp(left));
+        byLeft = leftBy(math::exp(left));
       } else {
         low = left, left = right, byLeft = byRight;
         right = low + kGolden * (high - low);
-        byRight = leftBy(std::exp(right));
+        byRight = leftBy(math::exp(right));
       }
     }
-    return std::exp(byLeft <= byRight ? left : right);
+    return math::exp(byLeft <= byRight ? left : right);
   }
 
   /// The value with the fewest digits that leaves hardly more than the value itself. What hardly differs from

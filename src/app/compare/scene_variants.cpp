@@ -1,7 +1,6 @@
 #include "app/compare/scene_variants.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <string_view>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "geometry/mesh/mesh.h"
+#include "math/elementary.h"
 #include "render/rays/ray_tree.h"
 #include "scene/conventions.h"
 #include "scene/scene_features.h"
@@ -91,7 +91,7 @@ void mirrorTextures(Scene& scene, Real Vec3::*axis) {
 }
 
 Real scaledFov(Real degrees, Real factor) {
-  return 2 * std::atan(std::tan(degrees * kPi / 360) * factor) * 180 / kPi;
+  return 2 * math::atan(math::tan(degrees * kPi / 360) * factor) * 180 / kPi;
 }
 
 class Variants {

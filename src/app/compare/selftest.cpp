@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <string>
 #include <thread>
@@ -11,6 +10,7 @@
 
 #include "app/session/session.h"
 #include "image/srgb.h"
+#include "math/elementary.h"
 #include "scene/picture_size.h"
 #include "shading/optics/fresnel.h"
 #include "shading/optics/optics.h"
@@ -180,7 +180,7 @@ double errorBesideRandom(const char* sampling) {
     double sum = 0;
     for (std::size_t i = 0; i < wanted.pixels.size(); ++i) {
       const double off = luminanceOf(found.pixels[i]) - luminanceOf(wanted.pixels[i]);
-      sum += off * off / std::pow(luminanceOf(wanted.pixels[i]), 2);
+      sum += off * off / math::pow(luminanceOf(wanted.pixels[i]), 2);
     }
     return sum;
   };
@@ -213,11 +213,11 @@ constexpr std::array kChecks{
     SelfCheck{"pixels that change if a render is stopped", "none may", 0, 0, afterAStop},
     SelfCheck{"angle refracted from 60 degrees into glass", "Snell, index 1.5", 35.26439, 1e-5,
               [] {
-                const Vec3 in{std::sin(60 * kDegree), -std::cos(60 * kDegree), 0};
-                return std::asin(refracted(in, {0, 1, 0}, 1 / 1.5)->x) / kDegree;
+                const Vec3 in{math::sin(60 * kDegree), -math::cos(60 * kDegree), 0};
+                return math::asin(refracted(in, {0, 1, 0}, 1 / 1.5)->x) / kDegree;
               }},
     SelfCheck{"share that glass mirrors at 75 degrees", "Fresnel, index 1.5", 0.253061, 1e-6,
-              [] { return fresnelDielectric(std::cos(75 * kDegree), 1, 1.5); }},
+              [] { return fresnelDielectric(math::cos(75 * kDegree), 1, 1.5); }},
     SelfCheck{"light of a square panel on the floor under it", "form factor 0.239456", 0.239456, 5e-4,
               [] {
                 return mean(pictureOf(

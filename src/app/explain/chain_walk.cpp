@@ -1,10 +1,10 @@
 #include "app/explain/chain_walk.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "app/explain/ray_view.h"
+#include "math/elementary.h"
 #include "render/samples/pixel.h"
 #include "scene/integrators.h"
 
@@ -86,7 +86,7 @@ ChainWalk ChainWalker::near(int x, int y, const Cancelled& cancelled) const {
     double distance = kInfinity;
     chains_.chain(tracer, Metropolis::numberOf(tile, 0), moves,
                   [&](const ChainMove& move, const OfferedSample&) {
-                    const double from = std::hypot(move.x - x, move.y - y);
+                    const double from = math::hypot(move.x - x, move.y - y);
                     if (move.made && move.light > 0 && from < distance) {
                       distance = from;
                       walk.nearest = static_cast<int>(walk.moves.size());

@@ -1,11 +1,11 @@
 #include "app/explain/pixel_why.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "app/explain/ray_view.h"
 #include "base/text.h"
+#include "math/elementary.h"
 #include "shading/bsdf.h"
 
 namespace trace {
@@ -207,7 +207,7 @@ PixelWhy whyOf(const RayTree& tree, const Scene& scene, Real exposure) {
   PixelWhy why;
   if (tree.nodes.empty()) return why;
   const RayNode& root = rayAt(tree, 0);
-  const Real scale = std::exp2(exposure);
+  const Real scale = math::exp2(exposure);
   const Real shown = brightness(root.radiance) * scale;
   const bool black = shown < kBlack, dark = shown < kDark;
   const std::string head = black ? "Black: " : dark ? "Dark: " : "";

@@ -13,6 +13,7 @@
 #include "geometry/shapes/solids/plane.h"
 #include "geometry/shapes/solids/square.h"
 #include "geometry/traced.h"
+#include "math/elementary.h"
 #include "math/transform.h"
 
 namespace trace {
@@ -75,7 +76,7 @@ class FlatFaces {
       std::vector<Vec3> corners;
       for (int i = 0; i < kRound; ++i) {
         const Real angle = (up ? 2 : -2) * kPi * i / kRound;
-        corners.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+        corners.push_back({radius * math::cos(angle), radius * math::sin(angle), z});
       }
       face(std::move(corners), sheet, kExact);
     };
@@ -232,7 +233,7 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> overlappingFaces(
     const Vec3 n = dot(face.normal, kWeights) < 0 ? -face.normal : face.normal;
     face.key = dot(n, kWeights) + 0.6180 * dot(n, face.corners[0] - middle) / size;
   }
-  std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
+  std::stable_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.key < b.key; });
 
   std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
   std::size_t tests = 0, places = 0;
@@ -248,8 +249,8 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> overlappingFaces(
       const int axis = longest(faces[begin].normal);
       for (std::size_t i = begin; i < end; ++i) measure(faces[i], axis);
       const auto group = faces.begin();
-      std::sort(group + static_cast<std::ptrdiff_t>(begin), group + static_cast<std::ptrdiff_t>(end),
-                [](const Face& a, const Face& b) { return a.low.x < b.low.x; });
+      std::stable_sort(group + static_cast<std::ptrdiff_t>(begin), group + static_cast<std::ptrdiff_t>(end),
+                       [](const Face& a, const Face& b) { return a.low.x < b.low.x; });
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t k = i + 1; k < end && faces[k].low.x <= faces[i].high.x; ++k) {
           checkBudget();

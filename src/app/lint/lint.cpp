@@ -12,6 +12,7 @@
 #include "formats/ray/read/material.h"
 #include "geometry/mesh/mesh_repair.h"
 #include "geometry/traced.h"
+#include "math/elementary.h"
 #include "scene/groups.h"
 
 namespace trace {
@@ -43,7 +44,7 @@ Box3 boxAround(const Object& object) { return object.worldFromObject * prepare(o
 
 Real roundedTo(Real value) {
   if (value == 0 || !std::isfinite(value)) return value;
-  const Real unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 2);
+  const Real unit = math::pow(10.0, std::floor(math::log10(std::abs(value))) - 2);
   return unit < 1 ? std::round(value / unit) / std::round(1 / unit) : std::round(value);
 }
 

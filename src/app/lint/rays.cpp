@@ -7,6 +7,7 @@
 #include "base/budget.h"
 #include "geometry/mesh/mesh.h"
 #include "image/development/tone.h"
+#include "math/elementary.h"
 #include "math/perpendicular.h"
 #include "render/samples/pixel.h"
 #include "shading/lights/spot_light.h"
@@ -20,7 +21,7 @@ constexpr int kDirections = 14;
 Vec3 direction(int i) {
   const Real z = 1 - (2 * i + 1.0) / kDirections, r = std::sqrt(1 - z * z);
   const Real angle = i * kPi * (3 - std::sqrt(5.0)) + 0.1;
-  return {r * std::cos(angle), r * std::sin(angle), z};
+  return {r * math::cos(angle), r * math::sin(angle), z};
 }
 
 }  // namespace
@@ -83,12 +84,12 @@ Real strongestAround(const World& world, const Light& light, const Vec3& positio
 bool shinesOnSomething(const World& world, const SpotLight& light) {
   constexpr int kRays = 200;
   const Vec3 axis = normalize(light.direction), right = perpendicularTo(axis), up = cross(right, axis);
-  const Real least = std::cos(light.angle * kPi / 180);
+  const Real least = math::cos(light.angle * kPi / 180);
   Statistics uncounted;
   for (int i = 0; i < kRays; ++i) {  // spread over the cone as over a sphere
     const Real z = 1 - (1 - least) * i / kRays, r = std::sqrt(max(0, 1 - z * z));
     const Real angle = i * kPi * (3 - std::sqrt(5.0));
-    const Ray ray{light.position, axis * z + right * (r * std::cos(angle)) + up * (r * std::sin(angle))};
+    const Ray ray{light.position, axis * z + right * (r * math::cos(angle)) + up * (r * math::sin(angle))};
     if (world.closest(ray, Faces::both, uncounted)) return true;
   }
   return false;

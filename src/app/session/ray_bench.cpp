@@ -7,6 +7,7 @@
 #include "app/session/session.h"
 #include "base/budget.h"
 #include "base/os/process.h"
+#include "math/elementary.h"
 #include "math/perpendicular.h"
 #include "render/picture/render.h"
 #include "render/samples/pixel.h"
@@ -26,7 +27,7 @@ Vec3 aroundNormal(const Vec3& normal, std::uint64_t i) {
              v = std::fmod(0.5 + n * 0.5698402909980532, 1.0);
   const Vec3 x = perpendicularTo(normal), y = cross(normal, x);
   const Real angle = 2 * kPi * u, r = std::sqrt(v);
-  return normalize(x * (r * std::cos(angle)) + y * (r * std::sin(angle)) + normal * std::sqrt(1 - v));
+  return normalize(x * (r * math::cos(angle)) + y * (r * math::sin(angle)) + normal * std::sqrt(1 - v));
 }
 
 /// Answers all queries once; closest hits, or whether there is any.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "math/elementary.h"
+
 namespace trace {
 
 std::optional<double> RemainingTime::update(double elapsed, double fraction, double before) {
@@ -11,7 +13,7 @@ std::optional<double> RemainingTime::update(double elapsed, double fraction, dou
   fraction = (fraction - before) / (1 - before);
   constexpr double kForgets = 4;  // what was done after x of the time until now counts x to this power
   if (fraction > done_) {         // what comes in large pieces is judged when one comes
-    const double kept = elapsed > 0 ? std::pow(clock_ / elapsed, kForgets) : 0;
+    const double kept = elapsed > 0 ? math::pow(clock_ / elapsed, kForgets) : 0;
     recentTime_ = recentTime_ * kept + std::max(0.0, elapsed - clock_);
     recent_ = recent_ * kept + fraction - done_;
     clock_ = std::max(clock_, elapsed);
@@ -29,7 +31,7 @@ std::optional<double> RemainingTime::update(double elapsed, double fraction, dou
   }
   const double passed = elapsed - last_;
   *left_ -= passed;
-  *left_ += (1 - std::exp(-kSmoothing * passed / std::max(elapsed, 1e-9))) * (steady - *left_);
+  *left_ += (1 - math::exp(-kSmoothing * passed / std::max(elapsed, 1e-9))) * (steady - *left_);
   *left_ = std::max(*left_, steady / 2);
   last_ = elapsed;
   return left_;

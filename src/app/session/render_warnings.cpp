@@ -11,6 +11,7 @@
 
 #include "app/advice/missing_caustic.h"
 #include "base/text.h"
+#include "math/elementary.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
 #include "render/lights/lamps.h"
@@ -465,7 +466,7 @@ std::string brightnessDoubt(const Settings& settings, Real error) {
     return "none of the first " + counted(static_cast<std::uint64_t>(settings.chainStarts), "sample") +
            " found light, and so the picture is black; a larger --chain-starts looks longer";
   const Real enough = settings.chainStarts * (error / kWanted) * (error / kWanted);
-  const Real digit = std::pow(10, std::floor(std::log10(enough)));
+  const Real digit = math::pow(10, std::floor(math::log10(enough)));
   char percent[16];
   std::snprintf(percent, sizeof percent, "%.2g", 100 * error);
   return "how bright the whole picture is, is known to " + std::string(percent) +

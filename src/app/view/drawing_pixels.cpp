@@ -5,6 +5,7 @@
 
 #include "app/view/drawing.h"
 #include "base/match.h"
+#include "math/elementary.h"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
@@ -31,14 +32,14 @@ class Canvas {
 
   void draw(const DrawnLine& l) {
     constexpr double kDash = 6, kGap = 4;
-    const double dx = l.to.x - l.from.x, dy = l.to.y - l.from.y, length = std::hypot(dx, dy);
+    const double dx = l.to.x - l.from.x, dy = l.to.y - l.from.y, length = math::hypot(dx, dy);
     const double reach = l.width / 2 + 1;
     const double left = std::min(l.from.x, l.to.x) - reach, right = std::max(l.from.x, l.to.x) + reach;
     const auto coverage = [&](double x, double y) {
       const double along = length > 0 ? ((x - l.from.x) * dx + (y - l.from.y) * dy) / length : 0;
       if (l.dashed && std::fmod(std::max(along, 0.0), kDash + kGap) > kDash) return 0.0;
       const double f = length > 0 ? std::clamp(along, 0.0, length) / length : 0;
-      return l.width / 2 + 0.5 - std::hypot(x - l.from.x - dx * f, y - l.from.y - dy * f);
+      return l.width / 2 + 0.5 - math::hypot(x - l.from.x - dx * f, y - l.from.y - dy * f);
     };
     // Row by row, only as far as the line is near.
     const double first = std::max(std::floor(std::min(l.from.y, l.to.y) - reach), top_);
@@ -58,7 +59,7 @@ class Canvas {
   void draw(const DrawnDisk& d) {
     const double reach = d.radius + 1;
     cover(d.center.x - reach, d.center.y - reach, d.center.x + reach, d.center.y + reach, d.color,
-          [&](double x, double y) { return d.radius + 0.5 - std::hypot(x - d.center.x, y - d.center.y); });
+          [&](double x, double y) { return d.radius + 0.5 - math::hypot(x - d.center.x, y - d.center.y); });
   }
 
   void draw(const DrawnWords& w) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/editing/placing.h"
+#include "math/elementary.h"
 #include "math/perpendicular.h"
 
 namespace trace {
@@ -27,7 +28,7 @@ Real distanceTo(const Vec2& p, const Vec2& a, const Vec2& b) {
   const Vec2 along{b.x - a.x, b.y - a.y};
   const Real l = along.x * along.x + along.y * along.y;
   const Real t = l > 0 ? std::clamp(((p.x - a.x) * along.x + (p.y - a.y) * along.y) / l, 0.0, 1.0) : 0;
-  return std::hypot(a.x + t * along.x - p.x, a.y + t * along.y - p.y);
+  return math::hypot(a.x + t * along.x - p.x, a.y + t * along.y - p.y);
 }
 
 /// How far along the axis the point is that is nearest to the ray through the place.
@@ -78,13 +79,13 @@ std::optional<Real> angleBetween(const Gizmo& gizmo, const Vec3& axis, const Cam
   const auto a = onPlane(gizmo, axis, view, from), b = onPlane(gizmo, axis, view, to);
   if (a && b) {
     const Vec3 p = *a - gizmo.center, q = *b - gizmo.center;
-    return std::atan2(dot(axis, cross(p, q)), dot(p, q));
+    return math::atan2(dot(axis, cross(p, q)), dot(p, q));
   }
   const auto center = seen(view, gizmo.center);
   if (!center) return {};
   const Vec2 p = onScreen(view, from), q = onScreen(view, to);
   const Real angle =
-      std::atan2(q.y - center->y, q.x - center->x) - std::atan2(p.y - center->y, p.x - center->x);
+      math::atan2(q.y - center->y, q.x - center->x) - math::atan2(p.y - center->y, p.x - center->x);
   return dot(axis, view.eye - gizmo.center) < 0 ? -angle : angle;
 }
 
@@ -104,7 +105,7 @@ std::optional<Affine> scaled(const Gizmo& gizmo, int handle, const CameraFrame& 
     if (!center) return {};
     // As if the handle, which is at the center, were as far out as the axes are long.
     const Real dx = (to.x - from.x) * length(view.right) / length(view.up), dy = to.y - from.y;
-    const Real factor = std::exp2((dx + dy) / kShare);
+    const Real factor = math::exp2((dx + dy) / kShare);
     if (!isFactor(factor)) return {};
     return about(gizmo.center, Affine::scaling(Vec3(1, 1, 1) * factor));
   }
@@ -138,7 +139,7 @@ std::vector<Vec3> handleLine(const Gizmo& gizmo, int handle) {
     const Vec3 side = perpendicularTo(axis), other = cross(axis, side);
     for (int i = 0; i <= kRing; ++i) {
       const Real angle = 2 * kPi * i / kRing;
-      line.push_back(gizmo.center + (side * std::cos(angle) + other * std::sin(angle)) * radius);
+      line.push_back(gizmo.center + (side * math::cos(angle) + other * math::sin(angle)) * radius);
     }
     return line;
   };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/elementary.h"
 #include "math/transform.h"
 
 namespace trace {
@@ -47,19 +48,19 @@ CameraFrame fitted(const CameraFrame& camera, Real viewAspect) {
   return wide;
 }
 
-OrbitCamera::OrbitCamera() : height_(2 * std::tan(kFieldOfView * kPi / 360)) {}
+OrbitCamera::OrbitCamera() : height_(2 * math::tan(kFieldOfView * kPi / 360)) {}
 
 void OrbitCamera::lookAt(const Box3& target) {
   target_ = target.center();
   const Real slope = height_ / 2;
-  distance_ = std::max(1e-30, kMargin * length(target.size()) / 2 * std::hypot(1, slope) / slope);
+  distance_ = std::max(1e-30, kMargin * length(target.size()) / 2 * math::hypot(1, slope) / slope);
 }
 
 OrbitCamera::OrbitCamera(const Box3& target, const Camera& camera) : OrbitCamera() {
   Box3 all = target;
   all.extend(camera.position);
   target_ = all.center();
-  distance_ = std::max(1e-30, kMargin * length(all.size()) / 2 / std::sin(kFieldOfView * kPi / 360));
+  distance_ = std::max(1e-30, kMargin * length(all.size()) / 2 / math::sin(kFieldOfView * kPi / 360));
   face(normalize(-camera.viewdir), camera.updir);
   azimuth_ += kBeside;
   elevation_ = std::clamp(elevation_ + kAbove, -kSteepest, kSteepest);
@@ -79,8 +80,8 @@ void OrbitCamera::face(const Vec3& back, const Vec3& updir) {
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(updir[axis]) > std::abs(updir[up_])) up_ = axis;
   sign_ = updir[up_] < 0 ? -1 : 1;
-  azimuth_ = std::atan2(back[(up_ + 2) % 3], back[(up_ + 1) % 3]);
-  elevation_ = std::clamp(std::asin(std::clamp(sign_ * back[up_], -1.0, 1.0)), -kSteepest, kSteepest);
+  azimuth_ = math::atan2(back[(up_ + 2) % 3], back[(up_ + 1) % 3]);
+  elevation_ = std::clamp(math::asin(std::clamp(sign_ * back[up_], -1.0, 1.0)), -kSteepest, kSteepest);
 }
 
 void OrbitCamera::turn(Real azimuth, Real elevation) {
@@ -97,9 +98,9 @@ void OrbitCamera::approach(Real factor) { distance_ = std::clamp(distance_ * fac
 
 Vec3 OrbitCamera::toEye() const {
   Vec3 v;
-  v[(up_ + 1) % 3] = std::cos(elevation_) * std::cos(azimuth_);
-  v[(up_ + 2) % 3] = std::cos(elevation_) * std::sin(azimuth_);
-  v[up_] = sign_ * std::sin(elevation_);
+  v[(up_ + 1) % 3] = math::cos(elevation_) * math::cos(azimuth_);
+  v[(up_ + 2) % 3] = math::cos(elevation_) * math::sin(azimuth_);
+  v[up_] = sign_ * math::sin(elevation_);
   return v;
 }
 

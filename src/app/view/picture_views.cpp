@@ -7,6 +7,7 @@
 #include "app/session/denoising.h"
 #include "image/comparison/compare.h"
 #include "image/comparison/false_color.h"
+#include "math/elementary.h"
 #include "math/vec.h"
 #include "render/picture/passes.h"
 #include "shading/texture.h"
@@ -16,7 +17,7 @@ namespace trace {
 Bytes exposed(const Picture& picture, double stops, Rounding rounding) {
   if (stops == 0) return toBytes(picture, rounding);
   Picture bright = picture;
-  const double factor = std::exp2(stops);
+  const double factor = math::exp2(stops);
   for (Color& c : bright.pixels) c = c * factor;
   return toBytes(bright, rounding);
 }

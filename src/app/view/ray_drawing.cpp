@@ -9,6 +9,7 @@
 #include "app/view/panel.h"
 #include "app/view/room.h"
 #include "app/view/scene_model.h"
+#include "math/elementary.h"
 #include "render/picture/passes.h"
 #include "render/picture/render.h"
 #include "scene/integrators.h"
@@ -82,7 +83,7 @@ Camera sideCamera(const CameraFrame& front, const Vec3& updir, const std::vector
   camera.position = ahead * center.x + up * center.y + right * (center.z + distance);
   camera.viewdir = -right;
   camera.updir = up;
-  camera.fov = 2 * std::atan(half / distance) * 180 / kPi;
+  camera.fov = 2 * math::atan(half / distance) * 180 / kPi;
   camera.aspectratio = aspect;
   return camera;
 }

@@ -11,6 +11,7 @@
 #include "app/view/scene_model.h"
 #include "image/codecs/animated_png.h"
 #include "image/development/development.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -51,7 +52,7 @@ Camera cameraOf(const CameraFrame& frame, Real aspect) {
   camera.position = frame.eye;
   camera.viewdir = normalize(frame.look);
   camera.updir = normalize(frame.up);
-  camera.fov = 2 * std::atan(length(frame.up) / (2 * length(frame.look))) * 180 / kPi;
+  camera.fov = 2 * math::atan(length(frame.up) / (2 * length(frame.look))) * 180 / kPi;
   camera.aspectratio = aspect;
   return camera;
 }

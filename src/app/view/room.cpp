@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "math/elementary.h"
 #include "render/world/hit.h"
 
 namespace trace {
@@ -18,7 +19,7 @@ constexpr int kLeastMet =
 Vec3 lookAlong(int i) {
   const Real golden = kPi * (3 - std::sqrt(5.0));
   const Real y = 1 - (2 * i + 1.0) / kRoomDirections, r = std::sqrt(1 - y * y), angle = golden * i;
-  return {r * std::cos(angle), y, r * std::sin(angle)};
+  return {r * math::cos(angle), y, r * math::sin(angle)};
 }
 
 }  // namespace

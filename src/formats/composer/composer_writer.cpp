@@ -1,6 +1,5 @@
 // A Scene as a file of the composer: spheres as they are, everything else as triangles in world space.
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "formats/picture_files.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/solids/sphere.h"
+#include "math/elementary.h"
 #include "scene/displacement.h"
 #include "scene/options.h"
 #include "shading/lights/ambient_light.h"
@@ -111,7 +111,7 @@ class Writer {
     warn("projectors become spot lights without their pictures");
     cf::Lamp lamp{.kind = cf::Lamp::Kind::spot, .position = light.position, .direction = light.direction};
     lamp.color = light.color;
-    lamp.cutOffAngle = std::atan(std::hypot(light.half().x, light.half().y));
+    lamp.cutOffAngle = math::atan(math::hypot(light.half().x, light.half().y));
     file_.lamps.push_back(lamp);
   }
   void add(const GoniometricLight& light) {

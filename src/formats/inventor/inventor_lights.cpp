@@ -1,6 +1,5 @@
 // Lights, cameras and what is behind all.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/text.h"
@@ -8,6 +7,7 @@
 #include "formats/inventor/inventor_reader.h"
 #include "formats/inventor/inventor_sky.h"
 #include "formats/inventor/inventor_transform.h"
+#include "math/elementary.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"
 #include "shading/lights/spot_light.h"
@@ -140,9 +140,9 @@ void Reader::background(const Values& v, State& state) {
   }
   const Vec3 up = linear(state.worldFromObject, {0, 1, 0}), ahead = linear(state.worldFromObject, {0, 0, -1});
   constexpr Real kTilted = 1e-6;
-  if (!(up.y > 0) || std::hypot(up.x, up.z) > kTilted * up.y)
+  if (!(up.y > 0) || math::hypot(up.x, up.z) > kTilted * up.y)
     return warn(v.node(), "a Background that is turned about another axis than y stands upright", "tilted");
-  const Real turn = std::atan2(-ahead.x, -ahead.z) * 180 / kPi;
+  const Real turn = math::atan2(-ahead.x, -ahead.z) * 180 / kPi;
   if (pictures && turn != 0) scene_.choices.push_back({"environment-rotation", toText(turn), place});
 }
 

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "geometry/mesh/mesh_repair.h"
+#include "math/elementary.h"
 
 namespace trace::inventor {
 namespace {
@@ -48,7 +49,7 @@ void mixNormals(Faces& faces) {
   for (std::size_t i = 0; i < faces.corners.size(); ++i) around[filled[faces.corners[i].point]++] = faceOf[i];
 
   const Real least =
-      faces.creaseAngle >= kPi ? -2 : std::cos(faces.creaseAngle) - 1e-9;  // rounding of equals
+      faces.creaseAngle >= kPi ? -2 : math::cos(faces.creaseAngle) - 1e-9;  // rounding of equals
   for (std::size_t i = 0; i < faces.corners.size(); ++i) {
     const std::uint32_t point = faces.corners[i].point;
     const Vec3& own = normals[faceOf[i]];

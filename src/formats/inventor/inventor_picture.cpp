@@ -2,9 +2,9 @@
 // VRML97.
 #include "formats/inventor/inventor_picture.h"
 
-#include <cmath>
 #include <utility>
 
+#include "math/elementary.h"
 #include "shading/textures/image_map.h"
 #include "shading/textures/mix.h"
 
@@ -16,7 +16,7 @@ using Model = PaintedPicture::Model;
 TextureTransform placementMoved(const Vec2& by) { return {1, 0, by.x, 0, 1, by.y}; }
 TextureTransform turned(Real angle) {
   if (angle == 0) return kUnmoved;
-  const Real c = std::cos(angle), s = std::sin(angle);
+  const Real c = math::cos(angle), s = math::sin(angle);
   return {c, 0 - s, 0, s, c, 0};
 }
 TextureTransform scaled(const Vec2& by) { return {by.x, 0, 0, 0, by.y, 0}; }

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "math/box.h"
+#include "math/elementary.h"
 #include "math/transform.h"
 
 namespace trace::inventor {
@@ -193,7 +194,7 @@ class Spine {
     const Vec3 y{0, 1, 0}, d = along_.front(), axis = cross(y, d);
     const Real sine = length(axis), cosine = dot(y, d);
     if (!(sine > 1e-12)) return {0, 0, cosine < 0 ? -1.0 : 1.0};
-    return linear(Affine::rotation(axis / sine, std::atan2(sine, cosine)), {0, 0, 1});
+    return linear(Affine::rotation(axis / sine, math::atan2(sine, cosine)), {0, 0, 1});
   }
   /// An undefined value is as the one before it, or as the first that is not.
   static void fill(std::vector<Vec3>& all, const Vec3& otherwise) {
@@ -327,7 +328,7 @@ Surface disc(Real radius, Real y, bool up) {
   surface.outline.face(0);
   for (std::uint32_t i = 0; i < kCorners; ++i) {
     const Real angle = (up ? -2 : 2) * kPi * i / kCorners;
-    const Real x = std::cos(angle), z = std::sin(angle);
+    const Real x = math::cos(angle), z = math::sin(angle);
     surface.points.push_back({radius * x, y, radius * z});
     surface.uvs.push_back({0.5 + x / 2, 0.5 + (up ? -z : z) / 2});
     surface.outline.corner(i, i, i);

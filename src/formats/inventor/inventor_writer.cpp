@@ -1,7 +1,6 @@
 // A Scene as a text file of Open Inventor 2.1 (.iv) or VRML 1.0 (.wrl): spheres and cubes as they are,
 // everything else as triangles. Meshes that several objects share are written once.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -15,6 +14,7 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/shapes/solids/cube.h"
 #include "geometry/shapes/solids/sphere.h"
+#include "math/elementary.h"
 #include "scene/displacement.h"
 #include "scene/options.h"
 #include "shading/lights/ambient_light.h"
@@ -111,7 +111,7 @@ class InventorWriter {
       warn("the camera becomes one of perspective: the format has no other lens");
     open(flat ? "OrthographicCamera" : "PerspectiveCamera");
     field("position", c.position);
-    field("orientation", {axis.x, axis.y, axis.z, std::atan2(sine, cosine)});
+    field("orientation", {axis.x, axis.y, axis.z, math::atan2(sine, cosine)});
     if (flat)
       field("height", {settings_.viewHeight});
     else
@@ -198,7 +198,7 @@ class InventorWriter {
     fading(light);
     warn("projectors become spot lights without their pictures");
     spotLight(light.position, light.direction, light.color, 0,
-              std::atan(std::hypot(light.half().x, light.half().y)));
+              math::atan(math::hypot(light.half().x, light.half().y)));
   }
   void add(const GoniometricLight& light) {
     fading(light);

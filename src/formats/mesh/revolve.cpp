@@ -9,13 +9,14 @@
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
 #include "image/codecs/picture_name.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
 
 /// To the right of the way from a to b.
 Vec2 normalOf(const Vec2& a, const Vec2& b) {
-  const Real x = b.y - a.y, y = a.x - b.x, l = std::hypot(x, y);
+  const Real x = b.y - a.y, y = a.x - b.x, l = math::hypot(x, y);
   return l > 0 ? Vec2{x / l, y / l} : Vec2{};
 }
 
@@ -40,7 +41,7 @@ std::vector<Real> lengths(std::span<const Vec2> profile) {
   std::vector<Real> along{0};
   for (std::size_t i = 1; i < profile.size(); ++i)
     along.push_back(along.back() +
-                    std::hypot(profile[i].x - profile[i - 1].x, profile[i].y - profile[i - 1].y));
+                    math::hypot(profile[i].x - profile[i - 1].x, profile[i].y - profile[i - 1].y));
   const Real whole = along.back();
   if (whole > 0)
     for (Real& a : along) a /= whole;
@@ -90,7 +91,7 @@ MeshData revolve(std::span<const Vec2> profile, int steps) {
   MeshData mesh;
   // The last column is the first again, except for u.
   for (int step = 0; step <= steps; ++step) {
-    const Real angle = 2 * kPi * (step % steps) / steps, c = std::cos(angle), s = std::sin(angle);
+    const Real angle = 2 * kPi * (step % steps) / steps, c = math::cos(angle), s = math::sin(angle);
     for (std::uint32_t i = 0; i < rows; ++i) {
       mesh.points.push_back(Vec3f(Vec3{profile[i].x * c, profile[i].y, 0 - profile[i].x * s}));
       const Vec3 n{normals[i].x * c, normals[i].y, 0 - normals[i].x * s};

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "formats/pov/pov_reader.h"
+#include "math/elementary.h"
 
 namespace trace::pov {
 
@@ -93,7 +94,7 @@ CameraNode Reader::camera() {
   // The angle is that between the sides, whatever the order of the words.
   if (c.angle > 0 && c.angle < 180 && (c.kind == "perspective" || c.kind == "orthographic") &&
       length(c.direction) > 0)
-    c.direction = normalize(c.direction) * (length(c.right) / 2 / std::tan(c.angle * kPi / 360));
+    c.direction = normalize(c.direction) * (length(c.right) / 2 / math::tan(c.angle * kPi / 360));
   return c;
 }
 

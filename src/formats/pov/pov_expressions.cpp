@@ -9,6 +9,7 @@
 #include "base/files/file.h"
 #include "base/text.h"
 #include "formats/pov/pov_reader.h"
+#include "math/elementary.h"
 
 namespace trace::pov {
 namespace {
@@ -51,7 +52,7 @@ std::optional<int> componentNamed(std::string_view w) {
   return {};
 }
 
-Real linearOf(Real c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
+Real linearOf(Real c) { return c <= 0.04045 ? c / 12.92 : math::pow((c + 0.055) / 1.055, 2.4); }
 
 /// Words of animations, whose value depends on whether the scene is part of one.
 bool isOfAnimations(std::string_view w) {
@@ -298,6 +299,7 @@ Numbers Reader::primary() {
     std::vector<std::string_view> names;
     for (const Scope& scope : scopes_)
       for (const auto& [name, slot] : scope) names.emplace_back(name);
+    std::sort(names.begin(), names.end());  // always the same of two that are equally near
     std::string hint;
     if (names.size() < 5000) hint = didYouMean(t.text, names);
     fail(t, "expected a number, found \"" + std::string(t.text) + "\", which is not declared", hint);

@@ -7,6 +7,7 @@
 #include "base/budget.h"
 #include "base/text.h"
 #include "formats/pov/pov_reader.h"
+#include "math/elementary.h"
 #include "math/noise.h"
 
 namespace trace::pov {
@@ -19,38 +20,38 @@ constexpr Real kDegree = kPi / 180;
 
 constexpr NumberFunction kFunctions[]{
     {"abs", 1, [](Args a, int) -> Maybe { return std::abs(a[0]); }},
-    {"acos", 1, [](Args a, int) -> Maybe { return std::acos(std::clamp(a[0], -1.0, 1.0)); }},
-    {"acosh", 1, [](Args a, int) -> Maybe { return a[0] < 1 ? Maybe() : std::acosh(a[0]); }},
-    {"asin", 1, [](Args a, int) -> Maybe { return std::asin(std::clamp(a[0], -1.0, 1.0)); }},
-    {"asinh", 1, [](Args a, int) -> Maybe { return std::asinh(a[0]); }},
-    {"atan", 1, [](Args a, int) -> Maybe { return std::atan(a[0]); }},
-    {"atan2", 2, [](Args a, int) -> Maybe { return std::atan2(a[0], a[1]); }},
-    {"atanh", 1, [](Args a, int) -> Maybe { return std::abs(a[0]) >= 1 ? Maybe() : std::atanh(a[0]); }},
+    {"acos", 1, [](Args a, int) -> Maybe { return math::acos(std::clamp(a[0], -1.0, 1.0)); }},
+    {"acosh", 1, [](Args a, int) -> Maybe { return a[0] < 1 ? Maybe() : math::acosh(a[0]); }},
+    {"asin", 1, [](Args a, int) -> Maybe { return math::asin(std::clamp(a[0], -1.0, 1.0)); }},
+    {"asinh", 1, [](Args a, int) -> Maybe { return math::asinh(a[0]); }},
+    {"atan", 1, [](Args a, int) -> Maybe { return math::atan(a[0]); }},
+    {"atan2", 2, [](Args a, int) -> Maybe { return math::atan2(a[0], a[1]); }},
+    {"atanh", 1, [](Args a, int) -> Maybe { return std::abs(a[0]) >= 1 ? Maybe() : math::atanh(a[0]); }},
     {"ceil", 1, [](Args a, int) -> Maybe { return std::ceil(a[0]); }},
-    {"cos", 1, [](Args a, int) -> Maybe { return std::cos(a[0]); }},
-    {"cosh", 1, [](Args a, int) -> Maybe { return std::cosh(a[0]); }},
+    {"cos", 1, [](Args a, int) -> Maybe { return math::cos(a[0]); }},
+    {"cosh", 1, [](Args a, int) -> Maybe { return math::cosh(a[0]); }},
     {"degrees", 1, [](Args a, int) -> Maybe { return a[0] / kDegree; }},
     {"div", 2, [](Args a, int) -> Maybe { return a[1] == 0 ? Maybe() : std::trunc(a[0] / a[1]); }},
-    {"exp", 1, [](Args a, int) -> Maybe { return std::exp(a[0]); }},
+    {"exp", 1, [](Args a, int) -> Maybe { return math::exp(a[0]); }},
     {"floor", 1, [](Args a, int) -> Maybe { return std::floor(a[0]); }},
     {"int", 1, [](Args a, int) -> Maybe { return std::trunc(a[0]); }},
-    {"ln", 1, [](Args a, int) -> Maybe { return a[0] <= 0 ? Maybe() : std::log(a[0]); }},
-    {"log", 1, [](Args a, int) -> Maybe { return a[0] <= 0 ? Maybe() : std::log10(a[0]); }},
+    {"ln", 1, [](Args a, int) -> Maybe { return a[0] <= 0 ? Maybe() : math::log(a[0]); }},
+    {"log", 1, [](Args a, int) -> Maybe { return a[0] <= 0 ? Maybe() : math::log10(a[0]); }},
     {"max", -1, [](Args a, int n) -> Maybe { return *std::max_element(a, a + n); }},
     {"min", -1, [](Args a, int n) -> Maybe { return *std::min_element(a, a + n); }},
     {"mod", 2, [](Args a, int) -> Maybe { return a[1] == 0 ? Maybe() : std::fmod(a[0], a[1]); }},
-    {"pow", 2, [](Args a, int) -> Maybe { return std::pow(a[0], a[1]); }},
+    {"pow", 2, [](Args a, int) -> Maybe { return math::pow(a[0], a[1]); }},
     {"radians", 1, [](Args a, int) -> Maybe { return a[0] * kDegree; }},
     {"select", 3,
      [](Args a, int n) -> Maybe {
        if (n == 3) return a[0] < 0 ? a[1] : a[2];
        return a[0] < 0 ? a[1] : a[0] == 0 ? a[2] : a[3];
      }},
-    {"sin", 1, [](Args a, int) -> Maybe { return std::sin(a[0]); }},
-    {"sinh", 1, [](Args a, int) -> Maybe { return std::sinh(a[0]); }},
+    {"sin", 1, [](Args a, int) -> Maybe { return math::sin(a[0]); }},
+    {"sinh", 1, [](Args a, int) -> Maybe { return math::sinh(a[0]); }},
     {"sqrt", 1, [](Args a, int) -> Maybe { return a[0] < 0 ? Maybe() : std::sqrt(a[0]); }},
-    {"tan", 1, [](Args a, int) -> Maybe { return std::tan(a[0]); }},
-    {"tanh", 1, [](Args a, int) -> Maybe { return std::tanh(a[0]); }},
+    {"tan", 1, [](Args a, int) -> Maybe { return math::tan(a[0]); }},
+    {"tanh", 1, [](Args a, int) -> Maybe { return math::tanh(a[0]); }},
     {"bitwise_and", 2,
      [](Args a, int) -> Maybe {
        return static_cast<Real>(static_cast<std::int64_t>(std::clamp(a[0], -1e15, 1e15)) &
@@ -109,7 +110,7 @@ std::optional<Real> Formula::at(const Real* arguments, int count, int depth) con
     switch (internal) {
       case kRadius: return length(p);
       case kSphere: return length(p) - extra(0);
-      case kTorus: return std::hypot(std::hypot(p.x, p.z) - extra(0), p.y) - extra(1);
+      case kTorus: return math::hypot(math::hypot(p.x, p.z) - extra(0), p.y) - extra(1);
       case kNoise: return noiseAt(p);
       case kRoundedBox: {
         const Real r = extra(0);

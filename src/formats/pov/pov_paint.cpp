@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "formats/pov/pov_formula.h"
+#include "math/elementary.h"
 #include "math/expression.h"
 #include "shading/textures/formula.h"
 #include "shading/textures/image_map.h"
@@ -23,13 +24,13 @@ Vec3 anglesOf(const Affine& r) {
   constexpr Real kDegrees = 180 / kPi;
   const Real s = std::clamp(-r.row[2].x, -1.0, 1.0);
   Vec3 a;
-  a.y = std::asin(s);
+  a.y = math::asin(s);
   if (std::abs(s) < 1 - 1e-12) {
-    a.x = std::atan2(r.row[2].y, r.row[2].z);
-    a.z = std::atan2(r.row[1].x, r.row[0].x);
+    a.x = math::atan2(r.row[2].y, r.row[2].z);
+    a.z = math::atan2(r.row[1].x, r.row[0].x);
   } else {
     a.x = 0;
-    a.z = std::atan2(-r.row[0].y, r.row[1].y);
+    a.z = math::atan2(-r.row[0].y, r.row[1].y);
   }
   for (int i = 0; i < 3; ++i) {
     a[i] *= kDegrees;
@@ -67,11 +68,11 @@ Affine axesOf(Affine a) {
     for (int p = 0; p < 2; ++p)
       for (int q = p + 1; q < 3; ++q) {
         if (std::abs(a.row[p][q]) < 1e-300) continue;
-        const Real t = 0.5 * std::atan2(2 * a.row[p][q], a.row[q][q] - a.row[p][p]);
+        const Real t = 0.5 * math::atan2(2 * a.row[p][q], a.row[q][q] - a.row[p][p]);
         Affine r;
-        r.row[p][p] = r.row[q][q] = std::cos(t);
-        r.row[p][q] = std::sin(t);
-        r.row[q][p] = -std::sin(t);
+        r.row[p][p] = r.row[q][q] = math::cos(t);
+        r.row[p][q] = math::sin(t);
+        r.row[q][p] = -math::sin(t);
         Affine back;
         for (int i = 0; i < 3; ++i)
           for (int j = 0; j < 3; ++j) back.row[i][j] = r.row[j][i];
@@ -526,7 +527,7 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
       const NormalNode& n = *layer.normal;
       if (solidOf(n.pattern->kind) && !isList(n.pattern->kind)) {
         l.relief = moved(numberOf(*n.pattern), n.at);
-        l.bump = n.amount * reliefOf(n.pattern->kind) * std::cbrt(std::abs(determinant(n.at)));
+        l.bump = n.amount * reliefOf(n.pattern->kind) * math::cbrt(std::abs(determinant(n.at)));
       } else {
         const std::string what = "the normal " + n.pattern->kind + " is left out";
         if (!warnings_.again(what)) warnings_.warn(n.pattern->place, what);
@@ -539,7 +540,7 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
       l.*field = placedBy(l.*field, layer.at);
     if (l.relief) {
       l.relief = moved(*l.relief, layer.at);
-      l.bump *= std::cbrt(std::abs(determinant(layer.at)));
+      l.bump *= math::cbrt(std::abs(determinant(layer.at)));
     }
   }
   return l;
@@ -592,7 +593,7 @@ Material Painter::material(const TextureNode& texture, const InteriorNode* inter
     m.opacity = 0;
   }
   if (l.relief) {
-    m.bump = l.bump * std::cbrt(std::abs(determinant(objectFromTexture)));
+    m.bump = l.bump * math::cbrt(std::abs(determinant(objectFromTexture)));
     if (m.bump != 0) setTexture(m.textures, "bump", moved(*l.relief, objectFromTexture));
   }
   m.model = phong;

@@ -13,6 +13,7 @@
 #include "geometry/shapes/solids/sphere.h"
 #include "geometry/traced.h"
 #include "image/codecs/codec.h"
+#include "math/elementary.h"
 #include "shading/lights/ambient_light.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"
@@ -107,13 +108,13 @@ void Builder::camera() {
     return;
   }
   to.aspectratio = wide / high;
-  to.fov = std::clamp(2 * std::atan(high / 2 / deep) * 180 / kPi, 0.001, 179.9);
+  to.fov = std::clamp(2 * math::atan(high / 2 / deep) * 180 / kPi, 0.001, 179.9);
   if (c.kind == "orthographic") {
     choose("projection", "orthographic");
     Real height = high;
-    if (c.angle > 0) height = high / wide * 2 * std::tan(c.angle * kPi / 360) * std::max(deep, 1e-9);
+    if (c.angle > 0) height = high / wide * 2 * math::tan(c.angle * kPi / 360) * std::max(deep, 1e-9);
     if (c.angle > 0 && c.lookAt)
-      height = high / wide * 2 * std::tan(c.angle * kPi / 360) * length(*c.lookAt - c.location);
+      height = high / wide * 2 * math::tan(c.angle * kPi / 360) * length(*c.lookAt - c.location);
     choose("view-height", shortest(height));
   } else if (c.kind == "fisheye") {
     choose("projection", "fisheye");
@@ -368,8 +369,8 @@ void Builder::light(const Node& node, const Affine& world, Around around, int de
     if (l.kind == LightNode::Kind::cylinder) {
       leaveOut(place, "that the light shines into a cylinder", "a cone takes its place");
       const Real away = length(aim);
-      spot.angle = std::atan2(l.falloff, away) * 180 / kPi;
-      spot.fullAngle = std::atan2(std::min(l.radius, l.falloff), away) * 180 / kPi;
+      spot.angle = math::atan2(l.falloff, away) * 180 / kPi;
+      spot.fullAngle = math::atan2(std::min(l.radius, l.falloff), away) * 180 / kPi;
     }
     scene_.lights.push_back({spot, place, links});
     return;
@@ -418,8 +419,8 @@ void Builder::sky() {
     Color first;
     for (int j = 0; j < kAround; ++j) {
       const Real turn = 2 * kPi * (j + 0.3) / kAround;
-      const Color c = seen(
-          {std::cos(elevation) * std::cos(turn), std::sin(elevation), std::cos(elevation) * std::sin(turn)});
+      const Color c = seen({math::cos(elevation) * math::cos(turn), math::sin(elevation),
+                            math::cos(elevation) * math::sin(turn)});
       if (j == 0) first = c;
       even = even && maxComponent(Color(std::abs(c.r - first.r), std::abs(c.g - first.g),
                                         std::abs(c.b - first.b))) < 1e-6;
@@ -479,7 +480,7 @@ void Builder::settings() {
     Real density = 1 / fog.distance;
     if (fog.type == 2 && fog.height > 0) {  // as much of it above a place as POV-Ray has
       constexpr Real kMostRise = 3;
-      density *= std::exp(std::clamp(fog.offset / fog.height, -kMostRise, kMostRise));
+      density *= math::exp(std::clamp(fog.offset / fog.height, -kMostRise, kMostRise));
       choose("fog-height", shortest(fog.height));
     }
     choose("fog", shortest(density));

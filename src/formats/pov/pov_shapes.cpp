@@ -26,6 +26,7 @@
 #include "geometry/shapes/surfaces/metaballs.h"
 #include "geometry/shapes/surfaces/prism.h"
 #include "geometry/shapes/surfaces/sphere_sweep.h"
+#include "math/elementary.h"
 #include "math/perpendicular.h"
 
 namespace trace::pov {
@@ -218,7 +219,7 @@ void Reader::blob(Node& node) {
                sz = length(Vec3{m.row[0].z, m.row[1].z, m.row[2].z});
     if (max(max(sx, sy), sz) > min(min(sx, sy), sz) * 1.001)
       leaveOut(t, "that a part of a blob is scaled to an ellipsoid");
-    a = m * a, b = m * b, r *= std::cbrt(sx * sy * sz);
+    a = m * a, b = m * b, r *= math::cbrt(sx * sy * sz);
     if (sphere)
       balls.balls.push_back({a.x, a.y, a.z, r, strength});
     else

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/unique.h"
 #include "geometry/mesh/mesh_crease.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -109,7 +110,7 @@ void movePoints(MeshData& mesh, const std::vector<Index>& place, const Unique<Pl
 
 Real angleAt(const Vec3& corner, const Vec3& a, const Vec3& b) {
   const Vec3 u = a - corner, v = b - corner;
-  return std::atan2(length(cross(u, v)), dot(u, v));
+  return math::atan2(length(cross(u, v)), dot(u, v));
 }
 
 /// Faces count by their angle at the point (Thuermer and Wuethrich 1998).

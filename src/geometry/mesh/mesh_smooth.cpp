@@ -1,11 +1,11 @@
 #include "geometry/mesh/mesh_smooth.h"
 
-#include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "base/budget.h"
 #include "geometry/mesh/mesh_crease.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -26,7 +26,7 @@ class Sets {
   std::vector<Index> parent_;
 };
 
-Real angleBetween(const Vec3& a, const Vec3& b) { return std::atan2(length(cross(a, b)), dot(a, b)); }
+Real angleBetween(const Vec3& a, const Vec3& b) { return math::atan2(length(cross(a, b)), dot(a, b)); }
 
 }  // namespace
 
@@ -49,7 +49,7 @@ MeshData withCreaseNormals(const MeshData& mesh, Real angle) {
   Sets sets(3 * static_cast<std::size_t>(count));
   Unique<Edge> edges;
   std::vector<Edge> firstCorners;  // first corners of each edge, at its a and at its b
-  const Real least = std::cos(angle);
+  const Real least = math::cos(angle);
   for (Index i = 0; i < count; ++i)
     for (Index c = 0; c < 3; ++c) {
       const Index next = (c + 1) % 3;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/unique.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -23,9 +24,9 @@ Real share(Real value, Real low, Real extent) { return extent > 0 ? (value - low
 /// u of points on the axis is not known: NaN.
 Vec2 around(const Vec3& p, const Box3& box, bool sphere) {
   const Vec3 d = p - box.center();
-  const Real r = std::hypot(d.x, d.y);
-  const Real u = r > 0 ? 0.5 + std::atan2(d.y, d.x) / (2 * kPi) : std::numeric_limits<Real>::quiet_NaN();
-  return {u, sphere ? 0.5 + std::atan2(d.z, r) / kPi : share(p.z, box.low.z, box.size().z)};
+  const Real r = math::hypot(d.x, d.y);
+  const Real u = r > 0 ? 0.5 + math::atan2(d.y, d.x) / (2 * kPi) : std::numeric_limits<Real>::quiet_NaN();
+  return {u, sphere ? 0.5 + math::atan2(d.z, r) / kPi : share(p.z, box.low.z, box.size().z)};
 }
 
 /// Makes the u of a face's corners go together: across the line where u starts again, and on the axis.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "accel/bounds.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -133,7 +134,7 @@ std::vector<BoxedItem> triangleParts(const MeshData& mesh, bool wholeOnly) {
   for (std::size_t i = 0; i < wholes; ++i) {
     const SplitGrid::Cut cut = grid.coarsestCut(box3(boxOf(parts[i])));
     const Real empty = Real{parts[i].note} * parts[i].note;
-    const float gain = cut.axis < 0 ? 0 : std::cbrt(static_cast<float>(empty * share * (1 << cut.bit)));
+    const float gain = cut.axis < 0 ? 0 : static_cast<float>(math::cbrt(empty * share * (1 << cut.bit)));
     parts[i].note = gain;
     allGains += gain;
   }

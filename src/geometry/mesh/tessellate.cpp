@@ -11,6 +11,7 @@
 #include "geometry/shapes/surfaces/curves.h"
 #include "geometry/shapes/surfaces/fur.h"
 #include "geometry/traced.h"
+#include "math/elementary.h"
 #include "math/perpendicular.h"
 #include "math/transform.h"
 
@@ -138,7 +139,7 @@ class SampleGrid {
     const auto keep = [&](const Crossing& crossing) { found_.push_back(crossing); };
     const Real end = along.back() - along.front();
     shape.crossings(ray, {0, end}, keep);
-    std::sort(found_.begin(), found_.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+    std::sort(found_.begin(), found_.end(), [](const Crossing& a, const Crossing& b) { return a.before(b); });
     return ray;
   }
 
@@ -261,7 +262,7 @@ std::vector<SurfaceCorner> strandCorners(const TracedCurves& curves) {
       std::array<SurfaceCorner, kSides> ring;
       for (std::size_t k = 0; k < kSides; ++k) {
         const Real angle = 2 * kPi * static_cast<Real>(k) / kSides;
-        const Vec3 out = side * std::cos(angle) + cross(along, side) * std::sin(angle);
+        const Vec3 out = side * math::cos(angle) + cross(along, side) * math::sin(angle);
         ring[k] = {at(i) + out * strand[i][3], out};
       }
       for (std::size_t k = 0; k < kSides && i > 0; ++k) {

@@ -15,6 +15,7 @@
 #include "geometry/shapes/solids/sphere.h"
 #include "geometry/shapes/solids/square.h"
 #include "geometry/traced.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -39,7 +40,7 @@ class Builder {
     const std::uint32_t first = next(), width = static_cast<std::uint32_t>(steps_) + 1;
     for (int i = 0; i <= rows; ++i)
       for (int k = 0; k <= steps_; ++k) {
-        const Real phi = 2 * kPi * k / steps_, c = std::cos(phi), s = std::sin(phi);
+        const Real phi = 2 * kPi * k / steps_, c = math::cos(phi), s = math::sin(phi);
         const auto [radius, z] = row(i);
         const auto [out, up] = normal(i);
         point({radius * c, radius * s, z}, {out * c, out * s, up});
@@ -59,7 +60,7 @@ class Builder {
     point({0, 0, z}, normal);
     for (int k = 0; k <= steps_; ++k) {
       const Real phi = (up ? 2 : -2) * kPi * k / steps_;
-      point({radius * std::cos(phi), radius * std::sin(phi), z}, normal);
+      point({radius * math::cos(phi), radius * math::sin(phi), z}, normal);
     }
     for (std::uint32_t k = 1; k <= static_cast<std::uint32_t>(steps_); ++k)
       triangle(center, center + k, center + k + 1);
@@ -102,8 +103,8 @@ void add(Builder& builder, const Sphere&, int steps) {
   const int rows = std::max(2, steps / 2);
   const auto angle = [&](int i) { return kPi * (static_cast<Real>(i) / rows - 0.5); };
   // Exactly at the poles, so that their triangles have no area.
-  const auto out = [&](int i) { return i == 0 || i == rows ? 0.0 : std::cos(angle(i)); };
-  const auto row = [&](int i) { return std::pair{out(i), std::sin(angle(i))}; };
+  const auto out = [&](int i) { return i == 0 || i == rows ? 0.0 : math::cos(angle(i)); };
+  const auto row = [&](int i) { return std::pair{out(i), math::sin(angle(i))}; };
   builder.around(rows, row, row);
 }
 

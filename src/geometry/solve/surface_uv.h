@@ -2,8 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
+#include "math/elementary.h"
 #include "math/vec.h"
 
 namespace trace {
@@ -24,13 +24,13 @@ class SurfaceUv {
     if (kind_ == Kind::plain) return {at_.x, at_.y};
     if (kind_ == Kind::around) return {turn(), at_.z};
     if (!isFinite(at_)) return {0.5, 0.5};
-    return {turn(), 0.5 + std::asin(std::clamp(at_.z, -1.0, 1.0)) / kPi};
+    return {turn(), 0.5 + math::asin(std::clamp(at_.z, -1.0, 1.0)) / kPi};
   }
 
  private:
   enum class Kind { plain, around, toward };
   constexpr SurfaceUv(const Vec3& at, Kind kind) : at_(at), kind_(kind) {}
-  Real turn() const { return 0.5 + std::atan2(at_.y, at_.x) / (2 * kPi); }
+  Real turn() const { return 0.5 + math::atan2(at_.y, at_.x) / (2 * kPi); }
 
   Vec3 at_;  ///< plain: u, v; around: x, y, v
   Kind kind_ = Kind::plain;

@@ -9,6 +9,7 @@
 
 #include "base/budget.h"
 #include "base/error.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -44,7 +45,7 @@ Comparison statistics(int width, int height, double peak, double tolerance, Diff
   c.identical = c.maxDifference == 0;
   c.mean = sum / n;
   c.rmse = std::sqrt(sumOfSquares / n);
-  c.psnr = c.rmse > 0 ? 20 * std::log10(peak / c.rmse) : std::numeric_limits<double>::infinity();
+  c.psnr = c.rmse > 0 ? 20 * math::log10(peak / c.rmse) : std::numeric_limits<double>::infinity();
   c.fractionBeyond = static_cast<double>(c.valuesBeyond) / n;
   c.pixelFractionBeyond = 3 * static_cast<double>(c.pixelsBeyond) / n;
   return c;

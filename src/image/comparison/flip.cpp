@@ -10,6 +10,7 @@
 #include "base/budget.h"
 #include "image/comparison/compare.h"
 #include "image/srgb.h"
+#include "math/elementary.h"
 #include "math/transform.h"
 
 namespace trace {
@@ -42,7 +43,7 @@ Vec3 rgbFromOpponent(const Vec3& opponent) {
 Vec3 huntLabFromRgb(const Vec3& rgb) {
   const auto curve = [](double t) {
     constexpr double kDelta = 6.0 / 29;
-    return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
+    return t > kDelta * kDelta * kDelta ? math::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
   };
   const Vec3 xyz = kXyzFromRgb * rgb;
   const double x = curve(xyz.x / kWhite.x), y = curve(xyz.y / kWhite.y), z = curve(xyz.z / kWhite.z);
@@ -130,7 +131,7 @@ Layer spatiallyFiltered(const Layer& plane, std::initializer_list<Sensitivity> s
   for (const Sensitivity& s : sum) {
     const Kernel k = kernel(radius, [&](double x) {
       const double degrees = x / pixelsPerDegree;
-      return std::exp(-kPi * kPi * degrees * degrees / s.b);
+      return math::exp(-kPi * kPi * degrees * degrees / s.b);
     });
     const double weight = s.a * std::sqrt(kPi / s.b);
     const double size = std::accumulate(k.begin(), k.end(), 0.0);
@@ -158,7 +159,7 @@ std::vector<Vec3> seenColors(const std::array<Layer, 3>& opponent, double pixels
 /// The HyAB distance, raised to the power that makes large ones count less (4.1.3).
 double colorDistance(const Vec3& a, const Vec3& b) {
   const Vec3 d = a - b;
-  return std::pow(std::abs(d.x) + std::hypot(d.y, d.z), 0.7);
+  return math::pow(std::abs(d.x) + math::hypot(d.y, d.z), 0.7);
 }
 
 /// From 0 to 1; distances below 0.4 of the largest there is take 0 to 0.95 (4.1.4).
@@ -188,7 +189,7 @@ Features features(const Layer& opponentY, double pixelsPerDegree) {
   for (double& value : luminance.values) value = (value + 16) / 116;
   const double deviation = featureDeviation(pixelsPerDegree);
   const int radius = featureRadius(pixelsPerDegree);
-  const auto gauss = [&](double x) { return std::exp(-x * x / (2 * deviation * deviation)); };
+  const auto gauss = [&](double x) { return math::exp(-x * x / (2 * deviation * deviation)); };
   const Kernel smooth = normalized(kernel(radius, gauss));
   const Kernel first = normalized(kernel(radius, [&](double x) { return -x * gauss(x); }));
   const Kernel second =
@@ -196,7 +197,8 @@ Features features(const Layer& opponentY, double pixelsPerDegree) {
   const auto magnitude = [&](const Kernel& across) {
     const Layer x = filtered(luminance, across, smooth), y = filtered(luminance, smooth, across);
     std::vector<double> lengths;
-    for (std::size_t i = 0; i < x.values.size(); ++i) lengths.push_back(std::hypot(x.values[i], y.values[i]));
+    for (std::size_t i = 0; i < x.values.size(); ++i)
+      lengths.push_back(math::hypot(x.values[i], y.values[i]));
     return lengths;
   };
   return {magnitude(first), magnitude(second)};
@@ -225,7 +227,7 @@ std::vector<double> errorsOf(const Picture& reference, const Picture& test, doub
     const double feature = std::max(std::abs(featuresA.edges[i] - featuresB.edges[i]),
                                     std::abs(featuresA.points[i] - featuresB.points[i]));
     const double exponent = 1 - std::min(1.0, std::sqrt(feature / std::sqrt(2.0)));
-    errors.push_back(color > 0 ? std::min(1.0, std::pow(color, exponent)) : 0);
+    errors.push_back(color > 0 ? std::min(1.0, math::pow(color, exponent)) : 0);
   }
   return errors;
 }

@@ -11,10 +11,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <vector>
 
 #include "base/budget.h"
+#include "math/complex.h"
 
 namespace trace {
 namespace {
@@ -29,12 +29,13 @@ constexpr double kLargest = 1e290;  // sums stay finite
 using Lanes = std::array<double, kTogether>;
 
 struct DampedWave {
-  std::complex<double> amplitude, pole;
+  Complex amplitude, pole;
 };
 
 std::array<DampedWave, kDampedWaves> dampedWaves(double sigma) {
   const auto pole = [&](double decay, double frequency) {
-    return std::exp(std::complex<double>(-decay, frequency) / sigma);
+    const math::SinCos turn = math::sincos(frequency / sigma);
+    return math::exp(-decay / sigma) * Complex{turn.cos, turn.sin};
   };
   return {DampedWave{{1.68, -3.735}, pole(1.783, 0.6318)}, DampedWave{{-0.6803, 0.2598}, pole(1.723, 1.997)}};
 }
@@ -42,7 +43,7 @@ std::array<DampedWave, kDampedWaves> dampedWaves(double sigma) {
 /// One wave of every lane, and its state.
 struct RunningWave {
   explicit RunningWave(const DampedWave& wave)
-      : re(wave.pole.real()), im(wave.pole.imag()), a(wave.amplitude.real()), b(wave.amplitude.imag()) {}
+      : re(wave.pole.re), im(wave.pole.im), a(wave.amplitude.re), b(wave.amplitude.im) {}
 
   /// Takes the next values.
   void step(const double* values) {

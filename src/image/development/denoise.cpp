@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "base/budget.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -238,14 +238,14 @@ void Filter::take(int y0, int y1, Picture& result) const {
             far = std::max(0.0f, far / kInPatch);
             if (far > kTooFar) continue;
             const Color color(other[0].row(v)[u], other[1].row(v)[u], other[2].row(v)[u]);
-            const double byColors = std::exp(-static_cast<double>(far));
+            const double byColors = math::exp(-static_cast<double>(far));
             Sums& sum = sums[1 - which][static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) +
                                         static_cast<std::size_t>(x)];
             sum.byColors.add(color, byColors);
             float surfaces = far;
             for (const Feature& feature : features) surfaces = std::max(surfaces, feature.apart(x, y, u, v));
             if (surfaces > kTooFar) continue;
-            sum.byAll.add(color, surfaces > far ? std::exp(-static_cast<double>(surfaces)) : byColors);
+            sum.byAll.add(color, surfaces > far ? math::exp(-static_cast<double>(surfaces)) : byColors);
           }
       }
   for (int y = y0; y < y1; ++y)

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "base/budget.h"
 #include "image/development/bloom.h"
 #include "image/srgb.h"
+#include "math/elementary.h"
 #include "math/noise.h"
 
 namespace trace {
@@ -82,12 +82,12 @@ Color agx(const Color& c) {
   constexpr double kLeast = -12.47393, kMost = 4.026069;  // stops
   Triple v = kInset * Triple{c.r, c.g, c.b};
   for (double& x : v) {
-    x = (std::clamp(std::log2(std::max(x, 1e-10)), kLeast, kMost) - kLeast) / (kMost - kLeast);
+    x = (std::clamp(math::log2(std::max(x, 1e-10)), kLeast, kMost) - kLeast) / (kMost - kLeast);
     const double x2 = x * x, x4 = x2 * x2;
     x = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
   }
   v = kOutset * v;
-  for (double& x : v) x = std::pow(std::clamp(x, 0.0, 1.0), 2.2);  // to linear light
+  for (double& x : v) x = math::pow(std::clamp(x, 0.0, 1.0), 2.2);  // to linear light
   return {v[0], v[1], v[2]};
 }
 
@@ -138,7 +138,7 @@ WhiteBalance whiteBalance(double kelvin) {
 }
 
 Color developed(Color color, const Development& d) {
-  if (d.exposure != 0) color = color * std::exp2(d.exposure);
+  if (d.exposure != 0) color = color * math::exp2(d.exposure);
   if (d.whiteBalance > 0) color = whiteBalance(d.whiteBalance)(color);
   return transferred(curved(color, d.tone), d.transfer);
 }
@@ -154,7 +154,7 @@ Picture developed(Picture picture, const Development& d) {
     const Work work("adding bloom");
     picture = bloomed(picture, d.bloom);
   }
-  const double scale = std::exp2(d.exposure);
+  const double scale = math::exp2(d.exposure);
   if (d.exposure != 0) each([&](const Color& c) { return c * scale; });
   if (d.whiteBalance > 0) each(whiteBalance(d.whiteBalance));
   each([&](const Color& c) { return curved(c, d.tone); });

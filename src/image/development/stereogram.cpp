@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/budget.h"
+#include "math/elementary.h"
 #include "math/noise.h"
 
 namespace trace {
@@ -54,7 +55,7 @@ void drawGuides(Picture& picture, const StereogramRules& rules) {
     const double x = picture.width / 2.0 + side * rules.eyes;
     for (int row = 0; row < picture.height; ++row)
       for (int column = 0; column < picture.width; ++column) {
-        const double away = std::hypot(column + 0.5 - x, row + 0.5 - y);
+        const double away = math::hypot(column + 0.5 - x, row + 0.5 - y);
         if (away < radius) picture.at(column, row) = Color(0);
         if (away >= radius && away < 1.4 * radius) picture.at(column, row) = Color(1);
       }

@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 
+#include "math/elementary.h"
+
 namespace trace {
 namespace {
 
 Real gaussian(Real x) {  // falls to 0 at its end; a deviation of half a pixel with the usual radius
   constexpr Real kSteepness = 4.5;
-  return std::exp(-kSteepness * x * x) - std::exp(-kSteepness);
+  return math::exp(-kSteepness * x * x) - math::exp(-kSteepness);
 }
 
 /// Mitchell and Netravali, Reconstruction Filters in Computer Graphics, 1988, with B = C = 1/3.
@@ -23,7 +25,7 @@ Real mitchell(Real x) {
 /// Harris, On the Use of Windows for Harmonic Analysis, 1978, with four terms.
 Real blackmanHarris(Real x) {
   const Real t = kPi * (x + 1);
-  return 0.35875 - 0.48829 * std::cos(t) + 0.14128 * std::cos(2 * t) - 0.01168 * std::cos(3 * t);
+  return 0.35875 - 0.48829 * math::cos(t) + 0.14128 * math::cos(2 * t) - 0.01168 * math::cos(3 * t);
 }
 
 constexpr std::array kFilters{

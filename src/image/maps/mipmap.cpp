@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "image/maps/mipmap_texels.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -18,7 +19,7 @@ struct Gaussian {
   static constexpr int kSize = 128;
   double weight[kSize + 1]{};  // the last for what rounding makes of 1
   Gaussian() {
-    for (int i = 0; i < kSize; ++i) weight[i] = std::exp(-2 * (i + 0.5) / kSize) - std::exp(-2.0);
+    for (int i = 0; i < kSize; ++i) weight[i] = math::exp(-2 * (i + 0.5) / kSize) - math::exp(-2.0);
   }
 };
 const Gaussian kGaussian;
@@ -167,7 +168,8 @@ Texel MipMap::at(const Vec2& uv, const Lookup& lookup) const {
   if (!(size < last)) return bilinear(level(smaller.size()), at, lookup);
   const std::size_t number = numberOf(size);
   if (!(size > 1)) return bilinear(level(number), at, lookup);
-  return trilinear(level(number), level(number + 1), std::log2(size) - static_cast<Real>(number), at, lookup);
+  return trilinear(level(number), level(number + 1), math::log2(size) - static_cast<Real>(number), at,
+                   lookup);
 }
 
 }  // namespace trace

@@ -1,7 +1,7 @@
 // Perturbations: the lens, caustics, and chains of mirrors and glass.
 #include <algorithm>
-#include <cmath>
 
+#include "math/elementary.h"
 #include "render/chains/moves.h"
 
 namespace trace::veach {
@@ -10,20 +10,21 @@ namespace trace::veach {
 /// 1997, section 11.4.3.1).
 Real Moves::shortWay() {
   constexpr Real kNearest = 1e-3;
-  return farthest_ * std::pow(kNearest, numbers_.next());
+  return farthest_ * math::pow(kNearest, numbers_.next());
 }
 
 /// Evenly in all directions, so that the way back is as likely.
 Vec2 Moves::moved(const Vec2& film) {
-  const Real way = shortWay(), angle = 2 * kPi * numbers_.next();
-  return {film.x + way * std::cos(angle) * stage_.side.x, film.y + way * std::sin(angle) * stage_.side.y};
+  const Real way = shortWay();
+  const math::SinCos angle = math::sincos(2 * kPi * numbers_.next());
+  return {film.x + way * angle.cos * stage_.side.x, film.y + way * angle.sin * stage_.side.y};
 }
 
 Vec3 Moves::moved(const Vec3& direction) {
-  const Real angle = std::min(shortWay(), kPi), around = 2 * kPi * numbers_.next();
+  const math::SinCos off = math::sincos(std::min(shortWay(), kPi));
+  const math::SinCos around = math::sincos(2 * kPi * numbers_.next());
   const Vec3 x = perpendicularTo(direction), y = cross(direction, x);
-  return normalize(direction * std::cos(angle) +
-                   (x * std::cos(around) + y * std::sin(around)) * std::sin(angle));
+  return normalize(direction * off.cos + (x * around.cos + y * around.sin) * off.sin);
 }
 
 namespace {

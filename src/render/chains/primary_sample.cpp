@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "math/elementary.h"
 #include "math/noise.h"
 
 namespace trace {
@@ -12,8 +13,9 @@ Vec2 uniformPair(std::uint64_t bits) { return {unitFromBits(bits), unitFromBits(
 /// Two independent normal numbers (Box and Muller 1958).
 Vec2 normalPair(std::uint64_t bits) {
   const Vec2 u = uniformPair(bits);
-  const Real radius = std::sqrt(-2 * std::log(1 - u.x)), angle = 2 * kPi * u.y;
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+  const Real radius = std::sqrt(-2 * math::log(1 - u.x));
+  const math::SinCos angle = math::sincos(2 * kPi * u.y);
+  return {radius * angle.cos, radius * angle.sin};
 }
 
 /// On the circle of length 1.

@@ -5,9 +5,8 @@
 // Use it to find what makes a scene slow. Not for the cost of the other integrators, whose rays go elsewhere.
 #pragma once
 
-#include <cmath>
-
 #include "image/comparison/false_color.h"
+#include "math/elementary.h"
 #include "render/integrators/whitted.h"
 
 namespace trace {
@@ -33,7 +32,7 @@ class Cost : public Integrator {
 
     constexpr double kMost = 1e4;
     Gather sum(tracer, 0);
-    sum.add(Term::Kind::emissive, heatColor(std::log(1 + steps) / std::log(1 + kMost)));
+    sum.add(Term::Kind::emissive, heatColor(math::log(1 + steps) / math::log(1 + kMost)));
     return sum.radiance();
   }
 

@@ -110,18 +110,18 @@ Ray BodyLamp::lineThrough(const Vec2& direction, const Vec2& disk) const {
 std::optional<BodyLamp::Place> BodyLamp::place(const World& world, const Vec2& direction, const Vec2& disk,
                                                Real which) const {
   const Ray line = lineThrough(direction, disk);
-  std::vector<std::pair<Real, Place>> places;
+  std::vector<std::pair<Found, Place>> places;
   Statistics statistics;
   world.crossingsOf(object_, line, kInfinity, statistics, [&](const Found& found) {
     const SurfacePoint at = world.surface(line, found);
     const bool enters = dot(at.normal, line.direction) < 0;
-    if (enters || !closed_) places.push_back({found.t, {at.point, enters ? at.normal : -at.normal}});
+    if (enters || !closed_) places.push_back({found, {at.point, enters ? at.normal : -at.normal}});
     return false;
   });
   const auto chosen = static_cast<std::size_t>(which * crossings_);
   if (chosen >= places.size()) return {};
   std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(chosen), places.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
+                   [](const auto& a, const auto& b) { return a.first.before(b.first); });
   return places[chosen].second;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "image/srgb.h"
+#include "math/elementary.h"
 #include "math/low_discrepancy.h"
 #include "math/warp.h"
 #include "render/lights/parallel_light.h"
@@ -54,7 +55,7 @@ LightStarts::LightStarts(const World& world, const Lamps& lamps) : lamps_(&lamps
       if (sine2 < 1 && !(light.radius > 0)) source.cosine = std::sqrt(1 - sine2);
       // The cone in which it shines, if that is narrower.
       const LightReach reach = world.lights()[i].reach(world.rules());
-      const Real cosine = std::cos(std::min(reach.around + reach.beyond, kPi));
+      const Real cosine = math::cos(std::min(reach.around + reach.beyond, kPi));
       if (cosine > source.cosine && cosine < 1) source.cosine = cosine, source.axis = reach.axis;
     }
     sum += source.share = powerOf(world, i);

@@ -5,13 +5,15 @@
 
 #include "base/parallel.h"
 #include "image/srgb.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
 
 Vec3 directionAt(Real across, Real height) {
-  const Real angle = 2 * kPi * across, y = 1 - 2 * height, flat = std::sqrt(std::max(0.0, 1 - y * y));
-  return {flat * std::cos(angle), y, flat * std::sin(angle)};
+  const Real y = 1 - 2 * height, flat = std::sqrt(std::max(0.0, 1 - y * y));
+  const math::SinCos angle = math::sincos(2 * kPi * across);
+  return {flat * angle.cos, y, flat * angle.sin};
 }
 
 }  // namespace
@@ -66,7 +68,7 @@ Vec3 SkyTable::choose(const Vec2& u) const {
 
 Real SkyTable::density(const Vec3& direction) const {
   const Real height = (1 - direction.y) / 2 * kRows;
-  const Real turn = std::atan2(direction.z, direction.x) / (2 * kPi);
+  const Real turn = math::atan2(direction.z, direction.x) / (2 * kPi);
   const int row = std::clamp(static_cast<int>(height), 0, kRows - 1);
   const int column = std::clamp(static_cast<int>((turn < 0 ? turn + 1 : turn) * kColumns), 0, kColumns - 1);
   const std::size_t here = cell(row, column);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/budget.h"
+#include "math/elementary.h"
 #include "math/warp.h"
 #include "shading/scattering.h"
 
@@ -12,7 +13,7 @@ namespace {
 
 /// The integral of the tangent over the sine squared, up to that sine: in a ring its mean, which a point in
 /// the middle would miss near the horizon.
-Real tangentIntegral(Real sine) { return std::asin(sine) - sine * std::sqrt(1 - sine * sine); }
+Real tangentIntegral(Real sine) { return math::asin(sine) - sine * std::sqrt(1 - sine * sine); }
 
 }  // namespace
 
@@ -34,9 +35,9 @@ IrradianceRecord HemisphereCells::record(const Vec3& point, const Vec3& x, const
   Real nearness = 0;
   for (int k = 0; k < around_; ++k) {
     const Real middle = 2 * kPi * (k + 0.5) / around_, edge = 2 * kPi * k / around_;
-    const Vec3 u = x * std::cos(middle) + y * std::sin(middle);
-    const Vec3 v = y * std::cos(middle) - x * std::sin(middle);
-    const Vec3 vEdge = y * std::cos(edge) - x * std::sin(edge);
+    const Vec3 u = x * math::cos(middle) + y * math::sin(middle);
+    const Vec3 v = y * math::cos(middle) - x * math::sin(middle);
+    const Vec3 vEdge = y * math::cos(edge) - x * math::sin(edge);
     const auto at = [&](int ring, int cell) -> const Seen& {
       return seen[static_cast<std::size_t>(ring * around_ + (cell + around_) % around_)];
     };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/budget.h"
 
@@ -33,7 +34,7 @@ PhotonMap::PhotonMap(std::vector<Photon> photons, Real reach, Real flatness, std
   auto begin = photons_.begin();
   for (std::size_t facing = 0; facing < kFacings; ++facing) {
     const auto end =
-        std::partition(begin, photons_.end(), [&](const Photon& p) { return facingOf(p) == facing; });
+        std::stable_partition(begin, photons_.end(), [&](const Photon& p) { return facingOf(p) == facing; });
     if (begin == end) continue;
     Box3 normals;
     for (auto photon = begin; photon != end; ++photon) normals.extend(photon->normal);
@@ -54,8 +55,14 @@ void PhotonMap::build(std::size_t first, std::size_t end) {
   if (extent.z > extent[axis]) axis = 2;
   const std::size_t middle = first + (end - first) / 2;
   const auto at = [&](std::size_t i) { return photons_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(first), at(middle), at(end),
-                   [axis](const Photon& a, const Photon& b) { return a.point[axis] < b.point[axis]; });
+  // A complete order, or the tree would depend on the C++ library.
+  const auto key = [axis](const Photon& p) {
+    return std::tuple(p.point[axis], p.point.x, p.point.y, p.point.z, p.direction.x, p.direction.y,
+                      p.direction.z);
+  };
+  std::nth_element(at(first), at(middle), at(end), [&](const Photon& a, const Photon& b) {
+    return a.point[axis] != b.point[axis] ? a.point[axis] < b.point[axis] : key(a) < key(b);
+  });
   axes_[middle] = static_cast<std::uint8_t>(axis);
   build(first, middle);
   build(middle + 1, end);
@@ -66,7 +73,9 @@ struct PhotonMap::Search {
   struct Entry {
     Real distance2;
     const Photon* photon;
-    bool operator<(const Entry& other) const { return distance2 < other.distance2; }
+    bool operator<(const Entry& other) const {
+      return distance2 != other.distance2 ? distance2 < other.distance2 : photon < other.photon;
+    }
   };
 
   const Vec3& point;

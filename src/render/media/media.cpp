@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "math/elementary.h"
 #include "math/low_discrepancy.h"
 #include "render/lights/light_choice.h"
 #include "render/rays/fog.h"
@@ -72,7 +73,7 @@ void addBorders(std::vector<Border>& borders, Tracer& tracer, const World::Mediu
 }
 
 Real mean(const Color& c) { return (c.r + c.g + c.b) / 3; }
-Color less(const Color& c) { return {std::exp(-c.r), std::exp(-c.g), std::exp(-c.b)}; }
+Color less(const Color& c) { return {math::exp(-c.r), math::exp(-c.g), math::exp(-c.b)}; }
 
 /// Walks along a ray from stretch to stretch.
 class Walk {
@@ -134,7 +135,7 @@ class Walk {
     const Medium medium = total(nullptr);
     const Color loses = medium.loses();
     const Real length = to - from;
-    const auto sent = [&](Real s) { return s > 0 ? -std::expm1(-s * length) / s : length; };
+    const auto sent = [&](Real s) { return s > 0 ? -math::expm1(-s * length) / s : length; };
     if (!foggy) glows += passes * medium.glows * Color(sent(loses.r), sent(loses.g), sent(loses.b));
     const bool asks = wantsPlaces_ && !isBlack(medium.scatters);
     if (asks || (foggy && !isBlack(medium.glows))) {
@@ -143,10 +144,10 @@ class Walk {
       for (int k = 0; k < draws_; ++k) {  // each in a part of its own of what is scattered
         const Real which = numbers_.next() * all, u = (k + numbers_.next()) / draws_;
         const Real of = which < counts.r ? loses.r : which < counts.r + counts.g ? loses.g : loses.b;
-        const Real gone = -std::expm1(-of * length);
-        const Real x = std::min(length, of * length > 1e-9 ? -std::log1p(-u * gone) / of : u * length);
+        const Real gone = -math::expm1(-of * length);
+        const Real x = std::min(length, of * length > 1e-9 ? -math::log1p(-u * gone) / of : u * length);
         const auto density = [&](Real s) {
-          return s * length > 1e-9 ? s * std::exp(-s * x) / -std::expm1(-s * length) : 1 / length;
+          return s * length > 1e-9 ? s * math::exp(-s * x) / -math::expm1(-s * length) : 1 / length;
         };
         const Real chosen =
             (counts.r * density(loses.r) + counts.g * density(loses.g) + counts.b * density(loses.b)) / all;
@@ -164,7 +165,7 @@ class Walk {
     const Real rate = std::max(maxComponent(most), leastSteps_ / (to - from));
     for (Real t = from;;) {
       checkBudget();
-      t += -std::log1p(-numbers_.next()) / rate;
+      t += -math::log1p(-numbers_.next()) / rate;
       if (!(t < to)) return;
       const Vec3 point = ray_.at(t);
       const Medium medium = total(&point);
@@ -261,11 +262,11 @@ MediumWay throughMedia(Tracer& tracer, const Ray& ray, Real t, const Interfaces&
   walk.foggy = foggy;
   FogPlace ofFog;
   if (foggy && places > 0) {
-    const Real stays = -std::expm1(-fog.depth(ray, t));
+    const Real stays = -math::expm1(-fog.depth(ray, t));
     ofFog = {settings.fogColor * (stays / places), fog.forward()};
     for (int k = 0; k < places; ++k) {
       const Real u = (k + numbers.next()) / places;
-      const Real at = stays > 0 ? fog.distance(ray, -std::log1p(-stays * u)) : kInfinity;
+      const Real at = stays > 0 ? fog.distance(ray, -math::log1p(-stays * u)) : kInfinity;
       if (isFinite(ray.at(at)) && at <= t)
         borders.push_back({at, nullptr, true, stays / (fog.densityAt(ray.at(at)) * places)});
     }

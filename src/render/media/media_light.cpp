@@ -1,4 +1,5 @@
 // The light of lights and lamps that media and fog scatter to a ray.
+#include "math/elementary.h"
 #include "render/lights/light_choice.h"
 #include "render/media/media.h"
 #include "render/rays/fog.h"
@@ -68,7 +69,7 @@ void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interface
   const Fog fog(settings);
   const World& world = tracer.world();
   if (fog.none() || !isInOpenAir(inside, world)) return;
-  const Real stays = -std::expm1(-fog.depth(ray, t));  // scattered fraction along the ray
+  const Real stays = -math::expm1(-fog.depth(ray, t));  // scattered fraction along the ray
   if (!(stays > 0)) return;
   sum.cover(Term::Kind::fog, stays);
   const Color scatters = settings.fogColor * stays;
@@ -80,7 +81,7 @@ void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interface
   for (int k = 0; k < places; ++k) {
     Sampler numbers = sampler.branch(static_cast<std::uint32_t>(k));
     // Places are the denser the more light comes from there.
-    const Real depth = -std::log1p(-stays * ((k + numbers.next()) / places));
+    const Real depth = -math::log1p(-stays * ((k + numbers.next()) / places));
     const Vec3 point = ray.at(fog.distance(ray, depth));
     if (!isFinite(point)) continue;
     const ScatterPlace at{ray, point, share, fog.forward(), inside, {}};

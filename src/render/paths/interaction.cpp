@@ -1,5 +1,6 @@
 #include "render/paths/interaction.h"
 
+#include "math/elementary.h"
 #include "math/low_discrepancy.h"
 #include "render/lights/light_choice.h"
 #include "render/media/media.h"
@@ -47,8 +48,7 @@ Interaction::Interaction(Tracer& tracer_, const Ray& ray_, const Hit& hit_, cons
   fresnel_ = straight                                 ? Fresnel::constant
              : material.passage == Passage::byFresnel ? Fresnel::exact
                                                       : settings.fresnel;
-  if (settings.smoothTerminator && !transmits && !material.litThrough)
-    raise(isTurned(ray, hit, transmits));
+  if (settings.smoothTerminator && !transmits && !material.litThrough) raise(isTurned(ray, hit, transmits));
   whole_.nanometres = inside.wavelength;
   const auto disperses = [](const Sides& sides) {
     return !sides.before.dispersion.none() || !sides.behind.dispersion.none();
@@ -202,8 +202,8 @@ bool Interaction::hasDisk(Real radius, Sampler numbers) const {
   const Basis basis = Frame{trueNormal()}.basis();
   const Real first = numbers.next();
   for (int n = 0; n < kLooks; ++n) {
-    const Real angle = 2 * kPi * (first + n) / kLooks;
-    const Vec3 out = basis.x * std::cos(angle) + basis.y * std::sin(angle);
+    const math::SinCos angle = math::sincos(2 * kPi * (first + n) / kLooks);
+    const Vec3 out = basis.x * angle.cos + basis.y * angle.sin;
     if (!continues(hit.surface.point + out * (kRim * radius), height)) return false;
   }
   return true;
@@ -217,8 +217,9 @@ Real Interaction::shareOfDisk(Real radius, Sampler numbers) const {
   int there = 0;
   for (std::uint32_t n = 0; n < kLooks; ++n) {
     const Vec2 u = rotated(sobolPoint(n, 0), first);
-    const Real away = radius * std::sqrt(1 - std::sqrt(u.x)), angle = 2 * kPi * u.y;
-    const Vec3 out = basis.x * std::cos(angle) + basis.y * std::sin(angle);
+    const Real away = radius * std::sqrt(1 - std::sqrt(u.x));
+    const math::SinCos angle = math::sincos(2 * kPi * u.y);
+    const Vec3 out = basis.x * angle.cos + basis.y * angle.sin;
     there += continues(hit.surface.point + out * away, kLookDown * away);
   }
   return std::max(kLeast, static_cast<Real>(there) / kLooks);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "math/elementary.h"
 #include "shading/materials/subsurface.h"
 #include "shading/optics/fresnel.h"
 #include "shading/optics/optics.h"
@@ -62,8 +63,9 @@ std::optional<Entrance> byProfile(const Interaction& at, const std::array<Profil
   const Vec3 &along = axes[axis], &across = axes[(axis + 1) % 3], &aside = axes[(axis + 2) % 3];
   const std::size_t channel = chosenChannel(share, numbers.next());
   const Vec2 disk = numbers.next2();
-  const Real r = profiles[channel].distance(disk.x), phi = 2 * kPi * disk.y;
-  const Vec3 middle = here.point + (across * std::cos(phi) + aside * std::sin(phi)) * r;
+  const Real r = profiles[channel].distance(disk.x);
+  const math::SinCos phi = math::sincos(2 * kPi * disk.y);
+  const Vec3 middle = here.point + (across * phi.cos + aside * phi.sin) * r;
 
   // The line from one side of the body to the other; of an infinite one, as far as light gets.
   const Box3 box = world.boundsOf(at.hit.object);
@@ -153,12 +155,12 @@ std::optional<WalkEnd> walked(const Interaction& at, const Subsurface& said, Ray
     if (!wall) return {};  // the body is open there
     const PerColor share = shares(importance * weight);
     const std::size_t channel = chosenChannel(share, numbers.next());
-    const Real s = -std::log1p(-numbers.next()) / loses[channel], t = std::min(s, wall->t);
+    const Real s = -math::log1p(-numbers.next()) / loses[channel], t = std::min(s, wall->t);
     PerColor passes;
     Real all = 0;
     const bool scattered = s < wall->t;
     for (std::size_t c = 0; c < 3; ++c) {
-      passes[c] = std::exp(-loses[c] * t);
+      passes[c] = math::exp(-loses[c] * t);
       all += share[c] * passes[c] * (scattered ? loses[c] : 1);
     }
     if (!(all > 0)) return {};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "image/srgb.h"
+#include "math/elementary.h"
 #include "render/photons/photon_emitter.h"
 
 namespace trace {
@@ -157,7 +158,7 @@ GlobalMaps globalMaps(const World& world, const Settings& settings, const Lamps&
                                        gathersFinally(settings) ? Kept::all : Kept::scattered, 0,
                                        emitted(settings.photons, settings), job, pass);
   return {{std::move(landed.photons), reach * std::sqrt(area), kFlatness, nearestOfPass(pass)},
-          {std::move(landed.inMedia), reach * std::cbrt(area), 1, nearestOfPass(pass)}};
+          {std::move(landed.inMedia), reach * math::cbrt(area), 1, nearestOfPass(pass)}};
 }
 
 }  // namespace trace

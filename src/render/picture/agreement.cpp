@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "image/srgb.h"
+#include "math/elementary.h"
 #include "math/hypothesis.h"
 #include "render/picture/passes.h"
 #include "render/picture/render.h"
@@ -60,7 +61,7 @@ Agreement agreement(const Scene& scene, const Settings& a, const Settings& b, in
     smallest = std::min(smallest, result.p.back());
   }
   result.uniform = kolmogorovSmirnov(result.p);
-  result.least = 1 - std::pow(1 - smallest, static_cast<double>(result.p.size()));
+  result.least = 1 - math::pow(1 - smallest, static_cast<double>(result.p.size()));
   const Moments wholeA = wholeOf(ofA), wholeB = wholeOf(ofB);
   result.meanA = wholeA.mean;
   result.meanB = wholeB.mean;

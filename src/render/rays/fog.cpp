@@ -1,7 +1,8 @@
 #include "render/rays/fog.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -13,7 +14,7 @@ constexpr Real kFarDown = 30;
 
 Real Fog::densityAt(const Vec3& point) const {
   constexpr Real kMost = 50;  // largest exponent, far below
-  return height_ > 0 ? density_ * std::exp(std::min(-point.y / height_, kMost)) : density_;
+  return height_ > 0 ? density_ * math::exp(std::min(-point.y / height_, kMost)) : density_;
 }
 
 Real Fog::depth(const Ray& ray, Real t) const {
@@ -22,7 +23,7 @@ Real Fog::depth(const Ray& ray, Real t) const {
   const Real thinner = height_ > 0 ? ray.direction.y / height_ : 0;  // the rate along the ray
   if (thinner == 0) return here == 0 ? 0 : here * t;
   if (-thinner * t > kFarDown) return t < kInfinity ? (here - densityAt(ray.at(t))) / thinner : kInfinity;
-  return here * (-std::expm1(-thinner * t) / thinner);  // the integral of exp(-thinner s)
+  return here * (-math::expm1(-thinner * t) / thinner);  // the integral of exp(-thinner s)
 }
 
 Real Fog::distance(const Ray& ray, Real depth) const {
@@ -31,15 +32,15 @@ Real Fog::distance(const Ray& ray, Real depth) const {
   if (thinner == 0) return depth / here;
   const Real change = thinner * depth;
   if (!(here > change)) return kInfinity;
-  if (-change > here * std::exp(kFarDown))  // by the height at which it is so dense
-    return (-height_ * std::log((here - change) / density_) - ray.origin.y) / ray.direction.y;
-  return -std::log1p(-change / here) / thinner;
+  if (-change > here * math::exp(kFarDown))  // by the height at which it is so dense
+    return (-height_ * math::log((here - change) / density_) - ray.origin.y) / ray.direction.y;
+  return -math::log1p(-change / here) / thinner;
 }
 
 void coverWithFog(Gather& sum, const Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside) {
   const Fog fog(tracer.settings());
   if (!fog.none() && isInOpenAir(inside, tracer.world()))
-    sum.cover(Term::Kind::fog, -std::expm1(-fog.depth(ray, t)));
+    sum.cover(Term::Kind::fog, -math::expm1(-fog.depth(ray, t)));
 }
 
 }  // namespace trace

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
+#include "math/elementary.h"
 #include "render/rays/gather.h"
 #include "shading/medium.h"
 
@@ -21,7 +21,7 @@ class Fog {
   /// How much of it lies along so much of the ray: the transmittance is exp(-depth). With a height, it thins
   /// out upward, along y.
   Real depth(const Ray& ray, Real t) const;
-  Real passes(const Ray& ray, Real t) const { return std::exp(-depth(ray, t)); }
+  Real passes(const Ray& ray, Real t) const { return math::exp(-depth(ray, t)); }
   /// The transmittance to a light that far away along the ray. Light from infinity is what arrives, and loses
   /// none.
   Real left(const Ray& toLight, Real distance) const {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "math/elementary.h"
+
 namespace trace {
 namespace {
 
@@ -28,9 +30,8 @@ Real inkAt(Tracer& tracer, const std::optional<Hit>& hit, const Vec2& film, cons
   const Real radius = tracer.settings().outlines / 2;
   int others = 0;
   for (int i = 0; i < kRays; ++i) {
-    const Real angle = 2 * kPi * (i + 0.5) / kRays;
-    const Vec2 place{film.x + radius * std::cos(angle) / size.width,
-                     film.y + radius * std::sin(angle) / size.height};
+    const math::SinCos angle = math::sincos(2 * kPi * (i + 0.5) / kRays);
+    const Vec2 place{film.x + radius * angle.cos / size.width, film.y + radius * angle.sin / size.height};
     others += elsewhere(tracer, hit, tracer.world().camera().ray(place, lens));
   }
   return min(1, 2.0 * others / kRays);  // half of them lie on the other side of a straight edge

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/budget.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -26,7 +27,7 @@ void widen(LightReach& cone, const LightReach& other) {
   if (narrow.around > wide.around) std::swap(wide, narrow);
   cone.beyond = std::max(cone.beyond, other.beyond);
   cone.twoSided = cone.twoSided || other.twoSided;
-  const Real between = std::acos(std::clamp(dot(wide.axis, narrow.axis), -1.0, 1.0));
+  const Real between = math::acos(std::clamp(dot(wide.axis, narrow.axis), -1.0, 1.0));
   cone.axis = wide.axis;
   cone.around = wide.around;
   if (std::min(between + narrow.around, kPi) <= wide.around) return;
@@ -40,7 +41,7 @@ void widen(LightReach& cone, const LightReach& other) {
   // The axis turned toward the other (Rodrigues).
   const Real turn = around - wide.around;
   const Vec3 side = cross(about / std::sqrt(length2), wide.axis);
-  cone.axis = normalize(wide.axis * std::cos(turn) + side * std::sin(turn));
+  cone.axis = normalize(wide.axis * math::cos(turn) + side * math::sin(turn));
   cone.around = around;
 }
 
@@ -62,8 +63,8 @@ Real cost(const LightReach& group) {
   if (!(group.power > 0)) return 0;
   const Real in = group.around, out = std::min(in + group.beyond, kPi);
   const Real cone =
-      2 * kPi * (1 - std::cos(in)) +
-      kPi / 2 * (2 * out * std::sin(in) - std::cos(in - 2 * out) - 2 * in * std::sin(in) + std::cos(in));
+      2 * kPi * (1 - math::cos(in)) +
+      kPi / 2 * (2 * out * math::sin(in) - math::cos(in - 2 * out) - 2 * in * math::sin(in) + math::cos(in));
   const Vec3 size = group.box.size();
   return group.power * cone * dot(size, size);
 }
@@ -131,7 +132,7 @@ class LightTree::Builder {
                                     : static_cast<float>(length(far)) * (1 + kOutward) +
                                           static_cast<float>(length(middle)) * kOutward;
     const auto wider = [](Real angle) {
-      return std::max(-1.0f, static_cast<float>(std::cos(std::min(angle, kPi))) - kOutward);
+      return std::max(-1.0f, static_cast<float>(math::cos(std::min(angle, kPi))) - kOutward);
     };
     node.cosAround = wider(reach.around);
     node.sinAround = std::sqrt(std::max(0.0f, 1 - node.cosAround * node.cosAround));

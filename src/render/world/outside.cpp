@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "math/elementary.h"
+
 namespace trace {
 namespace {
 
@@ -19,7 +21,7 @@ Color lookUp(const Picture& p, const Vec2& place) {
 /// From the bottom left, and the other way about.
 Vec2 fromTopLeft(const Vec2& place) { return {place.x, 1 - place.y}; }
 
-Real elevationOf(const Vec3& d) { return std::atan2(d.y, std::hypot(d.x, d.z)) * 180 / kPi; }
+Real elevationOf(const Vec3& d) { return math::atan2(d.y, math::hypot(d.x, d.z)) * 180 / kPi; }
 
 }  // namespace
 
@@ -29,8 +31,8 @@ Outside::Outside(const Scene& scene, const Settings& settings, const CameraFrame
       backdrop_(scene.surroundings.backdrop),
       environment_(scene.surroundings.environment),
       transparent_(settings.alpha),
-      turn_{std::cos(settings.environmentRotation * kPi / 180),
-            std::sin(settings.environmentRotation * kPi / 180)},
+      turn_{math::cos(settings.environmentRotation * kPi / 180),
+            math::sin(settings.environmentRotation * kPi / 180)},
       brightness_(settings.environmentBrightness) {
   if (settings.environmentRotation == 0) turn_ = {1, 0};
   if (background_.elevations.size() != background_.gradient.size()) background_.elevations.clear();

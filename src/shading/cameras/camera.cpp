@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/elementary.h"
+
 namespace trace {
 namespace {
 
@@ -27,13 +29,13 @@ Real stretch(const Optics& optics, Real radius) { return 1 + optics.distortion *
 
 Vec2 distorted(const CameraFrame& f, const Vec2& p) {
   if (f.optics.distortion == 0) return p;
-  const Real s = stretch(f.optics, 2 * std::hypot(p.x * aspectOf(f), p.y));
+  const Real s = stretch(f.optics, 2 * math::hypot(p.x * aspectOf(f), p.y));
   return {p.x * s, p.y * s};
 }
 
 /// The place that distorted() moves there, by Newton's method.
 Vec2 undistorted(const CameraFrame& f, const Vec2& p) {
-  const Real wanted = 2 * std::hypot(p.x * aspectOf(f), p.y), k = f.optics.distortion;
+  const Real wanted = 2 * math::hypot(p.x * aspectOf(f), p.y), k = f.optics.distortion;
   if (k == 0 || wanted == 0) return p;
   Real r = wanted;
   for (int i = 0; i < 20; ++i) r -= (r * stretch(f.optics, r) - wanted) / (1 + 3 * k * r * r);
@@ -77,7 +79,7 @@ CameraFrame frame(const Camera& camera, CameraAxes axes, const Optics& optics) {
     back = normalize(back);
     right = normalize(right);
   }
-  const Real height = 2 * std::tan(camera.fov * kPi / 360);
+  const Real height = 2 * math::tan(camera.fov * kPi / 360);
   CameraFrame f{camera.position, -back, right * (height * camera.aspectratio), up * height, camera.near,
                 camera.far,      optics};
   f.ahead = normalize(f.look);
@@ -100,21 +102,22 @@ CameraFrame::Path CameraFrame::path(const Vec2& p) const {
       return {eye + (right * moved.x + up * moved.y) * scale, axes.ahead, axes.right, axes.ahead};
     }
     case Projection::fisheye: {
-      const Real x = p.x * aspectOf(*this), radius = std::hypot(x, p.y);
-      const Real angle = std::min(radius / shorterOf(*this) * optics.fisheyeAngle / 2, kPi);
+      const Real x = p.x * aspectOf(*this), radius = math::hypot(x, p.y);
+      const math::SinCos off =
+          math::sincos(std::min(radius / shorterOf(*this) * optics.fisheyeAngle / 2, kPi));
       const Vec3 aside = radius > 0 ? (axes.right * x + axes.up * p.y) / radius : axes.right;
-      const Vec3 to = normalize(axes.ahead * std::cos(angle) + aside * std::sin(angle));
+      const Vec3 to = normalize(axes.ahead * off.cos + aside * off.sin);
       return {eye, to, axes.right, to};
     }
     case Projection::panorama:
     case Projection::cylinder: break;
   }
-  const Real azimuth = 2 * kPi * p.x, sine = std::sin(azimuth), cosine = std::cos(azimuth);
-  const Vec3 level = axes.ahead * cosine + axes.right * sine;
+  const math::SinCos azimuth = math::sincos(2 * kPi * p.x);
+  const Vec3 level = axes.ahead * azimuth.cos + axes.right * azimuth.sin;
   const bool sphere = optics.projection == Projection::panorama;
-  const Real upward = sphere ? std::tan(std::clamp(p.y, -0.5, 0.5) * kPi) : p.y * length(up);
+  const Real upward = sphere ? math::tan(std::clamp(p.y, -0.5, 0.5) * kPi) : p.y * length(up);
   const Vec3 to = normalize(level + axes.up * upward);
-  return {eye, to, axes.right * cosine - axes.ahead * sine, to};
+  return {eye, to, axes.right * azimuth.cos - axes.ahead * azimuth.sin, to};
 }
 
 Ray CameraFrame::bent(const Vec2& picture, const Vec2* u) const {
@@ -131,7 +134,7 @@ Ray CameraFrame::bent(const Vec2& picture, const Vec2* u) const {
   // The plane in focus is turned about the right axis, and still goes through the point in focus straight
   // ahead. Where it lies behind the eye, rays part as if they came from there.
   const Axes axes(*this);
-  const Vec3 normal = axes.ahead * std::cos(optics.tilt) + axes.up * std::sin(optics.tilt);
+  const Vec3 normal = axes.ahead * math::cos(optics.tilt) + axes.up * math::sin(optics.tilt);
   const Vec2 onLens = optics.lens.at(*u);
   const Vec3 offset = axes.right * onLens.x + axes.up * onLens.y;
   const Real distance = optics.lens.focus == kInfinity
@@ -165,7 +168,7 @@ Vec2 CameraFrame::placeOf(const Ray& ray) const {
       return {0.5 + place.x, 0.5 + place.y};
     }
     case Projection::fisheye: {
-      const Real aside = std::hypot(x, y), angle = std::atan2(aside, z);
+      const Real aside = math::hypot(x, y), angle = math::atan2(aside, z);
       const Real radius = aside > 0 ? angle / (optics.fisheyeAngle / 2) * shorterOf(*this) / aside : 0;
       const Vec2 place = undistorted(*this, {x * radius / aspectOf(*this), y * radius});
       return {0.5 + place.x, 0.5 + place.y};
@@ -173,10 +176,10 @@ Vec2 CameraFrame::placeOf(const Ray& ray) const {
     case Projection::panorama:
     case Projection::cylinder: break;
   }
-  const Real level = std::hypot(x, z);
+  const Real level = math::hypot(x, z);
   const bool sphere = optics.projection == Projection::panorama;
   const Vec2 place = undistorted(
-      *this, {std::atan2(x, z) / (2 * kPi), sphere ? std::atan2(y, level) / kPi : y / level / length(up)});
+      *this, {math::atan2(x, z) / (2 * kPi), sphere ? math::atan2(y, level) / kPi : y / level / length(up)});
   return {0.5 + place.x, 0.5 + place.y};
 }
 
@@ -226,7 +229,7 @@ Real CameraFrame::focusOn(const Vec3& point) const {
       optics.projection == Projection::perspective || optics.projection == Projection::orthographic;
   if (!flat && optics.tilt == 0) return length(point - eye);
   const Axes axes(*this);
-  const Vec3 normal = axes.ahead * std::cos(optics.tilt) + axes.up * std::sin(optics.tilt);
+  const Vec3 normal = axes.ahead * math::cos(optics.tilt) + axes.up * math::sin(optics.tilt);
   return dot(normal, point - eye) / dot(normal, axes.ahead);
 }
 

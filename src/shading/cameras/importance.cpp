@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/elementary.h"
+
 namespace trace {
 namespace {
 
@@ -46,7 +48,7 @@ Real CameraImportance::density(const Ray& ray) const {
     }
     case Projection::fisheye: {
       const Real across = dot(d, right_), upward = dot(d, up_);
-      const Real sine = std::hypot(across, upward), angle = std::atan2(sine, dot(d, frame_.ahead));
+      const Real sine = math::hypot(across, upward), angle = math::atan2(sine, dot(d, frame_.ahead));
       const Real shorter = std::min(wide / high, 1.0) / 2, perAngle = 2 * shorter / optics.fisheyeAngle;
       return (sine > 0 ? angle / sine : 1) * perAngle * perAngle * high / wide;
     }

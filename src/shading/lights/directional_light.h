@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "base/field.h"
+#include "math/elementary.h"
 #include "shading/lights/illumination.h"
 #include "shading/lights/light_geometry.h"
 #include "shading/lights/light_reach.h"
@@ -34,7 +34,7 @@ struct DirectionalLight {
 
   std::optional<Illumination> illuminate(const Vec3&, const Rules&, const Vec2& u = kCenter) const {
     Illumination arriving{normalize(-direction), kInfinity, color};
-    if (size > 0) arriving.toLight = toCone(u, arriving.toLight, std::cos(size * kPi / 360));
+    if (size > 0) arriving.toLight = toCone(u, arriving.toLight, math::cos(size * kPi / 360));
     return arriving;
   }
   LightReach reach(const Rules&) const {

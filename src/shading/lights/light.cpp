@@ -1,6 +1,6 @@
 #include "shading/lights/light.h"
 
-#include <cmath>
+#include "math/elementary.h"
 
 namespace trace {
 
@@ -34,7 +34,7 @@ LightGeometry geometryOf(const Light& light) {
     }
   });
   if (direction && angle)
-    geometry.cone = LightCone{normalize(*direction), *angle, std::cos(*angle * kPi / 180)};
+    geometry.cone = LightCone{normalize(*direction), *angle, math::cos(*angle * kPi / 180)};
   return geometry;
 }
 

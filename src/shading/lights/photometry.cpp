@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "math/elementary.h"
+
 namespace trace {
 namespace {
 
@@ -46,11 +48,11 @@ Photometry::Photometry(Type type, std::vector<Real> vertical, std::vector<Real> 
   constexpr int kRings = 360, kColumns = 72;
   for (int i = 0; i < kRings; ++i) {
     const Real off = (i + 0.5) * kPi / kRings,
-               area = 2 * kPi * (std::cos(i * kPi / kRings) - std::cos((i + 1) * kPi / kRings));
+               area = 2 * kPi * (math::cos(i * kPi / kRings) - math::cos((i + 1) * kPi / kRings));
     for (int j = 0; j < kColumns; ++j) {
       const Real turn = 2 * kPi * (j + 0.5) / kColumns;
-      lumens_ += at({std::sin(off) * std::cos(turn), std::sin(off) * std::sin(turn), std::cos(off)}) * area /
-                 kColumns;
+      lumens_ += at({math::sin(off) * math::cos(turn), math::sin(off) * math::sin(turn), math::cos(off)}) *
+                 area / kColumns;
     }
   }
 }
@@ -58,11 +60,11 @@ Photometry::Photometry(Type type, std::vector<Real> vertical, std::vector<Real> 
 Real Photometry::at(const Vec3& d) const {
   switch (type_) {
     case Type::c:
-      return atAngles(std::acos(std::clamp(d.z, -1.0, 1.0)) / kDegree, std::atan2(d.y, d.x) / kDegree);
+      return atAngles(math::acos(std::clamp(d.z, -1.0, 1.0)) / kDegree, math::atan2(d.y, d.x) / kDegree);
     case Type::a:
-      return atAngles(std::asin(std::clamp(d.x, -1.0, 1.0)) / kDegree, std::atan2(-d.y, d.z) / kDegree);
+      return atAngles(math::asin(std::clamp(d.x, -1.0, 1.0)) / kDegree, math::atan2(-d.y, d.z) / kDegree);
     case Type::b:
-      return atAngles(std::atan2(d.x, d.z) / kDegree, std::asin(std::clamp(-d.y, -1.0, 1.0)) / kDegree);
+      return atAngles(math::atan2(d.x, d.z) / kDegree, math::asin(std::clamp(-d.y, -1.0, 1.0)) / kDegree);
   }
   return 0;
 }

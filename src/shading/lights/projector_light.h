@@ -3,11 +3,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "base/field.h"
+#include "math/elementary.h"
 #include "shading/lights/illumination.h"
 #include "shading/lights/lamp_fields.h"
 #include "shading/lights/light_geometry.h"
@@ -65,7 +65,7 @@ struct ProjectorLight {
 
   /// Half the width and height of the picture at distance 1.
   Vec2 half() const {
-    const Real high = std::tan(fov * kPi / 360);
+    const Real high = math::tan(fov * kPi / 360);
     const Real aspect = aspectRatio > 0 ? aspectRatio
                         : file.map      ? static_cast<Real>(file.map->width()) / file.map->height()
                                         : 1;
@@ -101,7 +101,7 @@ struct ProjectorLight {
     LightReach reach = reachOfLamp(*this, rules);
     reach.axis = normalize(direction);
     const Vec2 half = this->half();
-    reach.around = std::atan(std::hypot(half.x + blur * half.y, half.y * (1 + blur)));
+    reach.around = math::atan(math::hypot(half.x + blur * half.y, half.y * (1 + blur)));
     return reach;
   }
 };

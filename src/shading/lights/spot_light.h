@@ -2,11 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "base/field.h"
+#include "math/elementary.h"
 #include "shading/lights/illumination.h"
 #include "shading/lights/lamp_fields.h"
 #include "shading/lights/light_geometry.h"
@@ -48,10 +48,10 @@ struct SpotLight {
     std::optional<Illumination> arriving = fromPlace(*this, p, rules);
     if (!arriving) return {};
     const Real cosine = std::clamp(-dot(position - p, normalize(direction)) / arriving->distance, -1.0, 1.0);
-    const Real off = std::acos(cosine) * 180 / kPi;
+    const Real off = math::acos(cosine) * 180 / kPi;
     if (off > angle) return {};
     Real& factor = arriving->attenuation;
-    if (exponent > 0) factor *= std::pow(std::max(0.0, cosine), exponent);
+    if (exponent > 0) factor *= math::pow(std::max(0.0, cosine), exponent);
     if (off > fullAngle) factor *= (angle - off) / (angle - fullAngle);
     towardBall(*arriving, radius, u);
     return arriving;

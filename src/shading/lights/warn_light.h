@@ -4,11 +4,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string_view>
 
 #include "base/field.h"
+#include "math/elementary.h"
 #include "shading/lights/illumination.h"
 #include "shading/lights/lamp_fields.h"
 #include "shading/lights/light_geometry.h"
@@ -59,8 +59,8 @@ struct WarnLight {
     std::optional<Illumination> arriving = fromPlace(*this, p, rules);
     if (!arriving) return {};
     const Real cosine = std::min(1.0, -dot(arriving->toLight, normalize(direction)));
-    if (!(cosine > 0) || std::acos(cosine) * 180 / kPi > angle) return {};
-    arriving->attenuation *= std::pow(cosine, exponent);
+    if (!(cosine > 0) || math::acos(cosine) * 180 / kPi > angle) return {};
+    arriving->attenuation *= math::pow(cosine, exponent);
     towardBall(*arriving, radius, u);
     return arriving;
   }

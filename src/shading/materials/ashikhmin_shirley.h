@@ -8,6 +8,7 @@
 
 #include <string_view>
 
+#include "math/elementary.h"
 #include "shading/materials/phong.h"
 #include "shading/optics/fresnel.h"
 #include "shading/scattering.h"
@@ -60,7 +61,7 @@ struct AshikhminShirleyBsdf : LocalBsdf<AshikhminShirleyBsdf, AshikhminShirley> 
   }
   /// The density of half-way vectors (equation 7).
   Real halfDensity(const Vec3& half) const {
-    return std::sqrt((nu + 1) * (nv + 1)) / (2 * kPi) * std::pow(std::abs(half.z), powerAt(half));
+    return std::sqrt((nu + 1) * (nv + 1)) / (2 * kPi) * math::pow(std::abs(half.z), powerAt(half));
   }
   Scatter value(const Vec3& eye, const Vec3& light) const {
     const Vec3 half = halfway(eye, light);
@@ -83,11 +84,11 @@ struct AshikhminShirleyBsdf : LocalBsdf<AshikhminShirleyBsdf, AshikhminShirley> 
     const Real quarter = std::floor(u.x * 4), within = u.x * 4 - quarter;
     const bool backwards = quarter == 1 || quarter == 3;
     const Real v = backwards ? 1 - within : within;
-    Real phi = std::atan(std::sqrt((nu + 1) / (nv + 1)) * std::tan(kPi * v / 2));
+    Real phi = math::atan(std::sqrt((nu + 1) / (nv + 1)) * math::tan(kPi * v / 2));
     if (backwards) phi = kPi - phi;
     if (quarter >= 2) phi += kPi;
-    const Real c = std::cos(phi), s = std::sin(phi);
-    const Real cosine = std::pow(1 - u.y, 1 / (nu * c * c + nv * s * s + 1));
+    const auto [s, c] = math::sincos(phi);
+    const Real cosine = math::pow(1 - u.y, 1 / (nu * c * c + nv * s * s + 1));
     return mirroredAt(sphericalDirection(cosine, phi), eye);
   }
   Real directionDensity(const Vec3& eye, const Vec3& light) const {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "math/elementary.h"
 #include "shading/materials/phong.h"
 #include "shading/scattering.h"
 #include "shading/textures/pattern.h"
@@ -83,7 +84,7 @@ struct CelBsdf : LocalBsdf<CelBsdf, Cel> {
   /// Inside the highlight 1.
   Real spotOf(const Vec3& eye, const Vec3& light) const {
     if (isBlack(said.specular)) return 0;
-    const Real lean = std::acos(min(1, halfway(eye, light).z)) * 180 / kPi;
+    const Real lean = math::acos(min(1, halfway(eye, light).z)) * 180 / kPi;
     return edge(said.highlight - lean, max(0, said.softness) * said.highlight);
   }
 };

@@ -8,6 +8,7 @@
 
 #include <string_view>
 
+#include "math/elementary.h"
 #include "shading/materials/phong.h"
 #include "shading/scattering.h"
 
@@ -52,7 +53,7 @@ struct GoochBsdf : LocalBsdf<GoochBsdf, Gooch> {
                 warm = said.warm + said.diffuse * said.warmShare;
     const Vec3 half = halfway(eye, light);
     const Real facing = max(0, min(1, (1 + light.z) / 2));
-    const Real spot = half.z > 0 && light.z > 0 ? std::pow(half.z, said.shininess) : 0;
+    const Real spot = half.z > 0 && light.z > 0 ? math::pow(half.z, said.shininess) : 0;
     return {lerp(facing, cool, warm) / kPi, said.specular * (spot / kPi)};
   }
   Vec3 direction(const Vec3&, Real, Vec2 u) const { return sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y); }

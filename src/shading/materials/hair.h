@@ -11,6 +11,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "math/elementary.h"
 #include "shading/materials/phong.h"
 #include "shading/scattering.h"
 
@@ -53,7 +54,7 @@ struct HairBsdf : LocalBsdf<HairBsdf, Hair> {
     // The strand mirrors light into a cone around itself; cos(eye, nearest of the cone).
     const Real near = max(0, sinLight * sinEye - light.x * eye.x);
     return {said.diffuse * (sinLight * light.z / kPi),
-            said.specular * (std::pow(near, said.shininess) * light.z / kPi)};
+            said.specular * (math::pow(near, said.shininess) * light.z / kPi)};
   }
 };
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "math/elementary.h"
 #include "shading/scattering.h"
 
 namespace trace {
@@ -99,7 +100,7 @@ struct PhongBsdf : WhittedTerms {
       cosHighlight = dot(n * (2 * cosMirror) - toLight, toEye);
     }
     if (cosHighlight > 0 || shininess == 0)
-      scatter.specular = specular * std::pow(std::max(0.0, cosHighlight), shininess);
+      scatter.specular = specular * math::pow(std::max(0.0, cosHighlight), shininess);
     return scatter;
   }
 

@@ -8,6 +8,7 @@
 
 #include <string_view>
 
+#include "math/elementary.h"
 #include "shading/materials/phong.h"
 #include "shading/optics/microfacet.h"
 
@@ -61,15 +62,16 @@ struct WardBsdf : LocalBsdf<WardBsdf, Ward> {
     // Equation 17 of 2010, with the half-way vector of any length.
     const Vec3 h = eye + light;
     const Real up = h.z * h.z, x = h.x / ax, y = h.y / ay;
-    const Real lobe = std::exp(-(x * x + y * y) / up) * dot(h, h) / (kPi * ax * ay * up * up);
+    const Real lobe = math::exp(-(x * x + y * y) / up) * dot(h, h) / (kPi * ax * ay * up * up);
     const Real f = lobe > 0 && up > 0 ? lobe : 0;
     return {said.diffuse * (light.z / kPi), said.specular * (f * light.z)};
   }
   /// Ward's own choice of the half-way vector, whose density is that of Beckmann's slopes.
   Vec3 direction(const Vec3& eye, Real choose, Vec2 u) const {
     if (choose >= share) return cosineDirection(u);
-    const Real r = std::sqrt(-std::log(1 - u.x)), phi = 2 * kPi * u.y;
-    return mirroredAt(normalize(Vec3{ax * r * std::cos(phi), ay * r * std::sin(phi), 1}), eye);
+    const Real r = std::sqrt(-math::log(1 - u.x));
+    const math::SinCos phi = math::sincos(2 * kPi * u.y);
+    return mirroredAt(normalize(Vec3{ax * r * phi.cos, ay * r * phi.sin, 1}), eye);
   }
   Real directionDensity(const Vec3& eye, const Vec3& light) const {
     Vec3 half = halfway(eye, light);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
+#include "math/elementary.h"
 #include "shading/optics/dispersion.h"
 
 namespace trace {
@@ -16,7 +16,7 @@ constexpr int kBlackbodySteps = 256;  // blackbody steps of the logarithm of the
 Real planck(Real nanometres, Real kelvin) {
   constexpr Real kSecond = 1.438776877e7;  // nanometres times kelvin
   const Real x = nanometres / 1000;
-  return 1 / (x * x * x * x * x * std::expm1(kSecond / (nanometres * kelvin)));
+  return 1 / (x * x * x * x * x * math::expm1(kSecond / (nanometres * kelvin)));
 }
 
 Color summed(Real kelvin) {
@@ -37,8 +37,8 @@ std::array<BlackbodyRow, kBlackbodySteps + 1> blackbodyTable() {
   std::array<BlackbodyRow, kBlackbodySteps + 1> rows;
   const Real candle = brightness(summed(kCandle));
   for (int i = 0; i <= kBlackbodySteps; ++i) {
-    const Color color = summed(kColdest * std::pow(kHottest / kColdest, Real(i) / kBlackbodySteps));
-    rows[static_cast<std::size_t>(i)] = {std::log(brightness(color) / candle), color / brightness(color)};
+    const Color color = summed(kColdest * math::pow(kHottest / kColdest, Real(i) / kBlackbodySteps));
+    rows[static_cast<std::size_t>(i)] = {math::log(brightness(color) / candle), color / brightness(color)};
   }
   return rows;
 }
@@ -49,11 +49,11 @@ Color blackbodyColor(Real kelvin) {
   static const auto kRows = blackbodyTable();
   if (!(kelvin >= kColdest)) return {};
   const Real place =
-      std::log(std::min(kelvin, kHottest) / kColdest) / std::log(kHottest / kColdest) * kBlackbodySteps;
+      math::log(std::min(kelvin, kHottest) / kColdest) / math::log(kHottest / kColdest) * kBlackbodySteps;
   const auto i = std::min(static_cast<std::size_t>(place), std::size_t{kBlackbodySteps - 1});
   const Real rest = place - static_cast<Real>(i);
   const BlackbodyRow &a = kRows[i], &b = kRows[i + 1];
-  return lerp(rest, a.color, b.color) * std::exp((1 - rest) * a.brightness + rest * b.brightness);
+  return lerp(rest, a.color, b.color) * math::exp((1 - rest) * a.brightness + rest * b.brightness);
 }
 
 }  // namespace trace

@@ -1,7 +1,8 @@
 #include "shading/optics/daylight.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -23,7 +24,7 @@ constexpr Chromaticity kZenithY{{{0.00275, -0.00610, 0.00317, 0},
 
 ColorXyY zenithOf(Real T, Real s) {
   const Real chi = (4.0 / 9 - T / 120) * (kPi - 2 * s);
-  const Real luminance = (4.0453 * T - 4.9710) * std::tan(chi) - 0.2155 * T + 2.4192;
+  const Real luminance = (4.0453 * T - 4.9710) * math::tan(chi) - 0.2155 * T + 2.4192;
   return {kZenithX.at(T, s), kZenithY.at(T, s), std::max(luminance, 0.0)};
 }
 
@@ -40,15 +41,15 @@ Color toColor(const ColorXyY& c) {
 
 /// Perez' sky: darker or brighter toward the horizon (a, b), brighter around the sun (c, d, e).
 Real Daylight::Perez::at(Real cosTheta, Real gamma) const {
-  const Real toHorizon = cosTheta > 0 ? std::exp(b / cosTheta) : 0;
-  const Real cosGamma = std::cos(gamma);
-  return (1 + a * toHorizon) * (1 + c * std::exp(d * gamma) + e * cosGamma * cosGamma);
+  const Real toHorizon = cosTheta > 0 ? math::exp(b / cosTheta) : 0;
+  const Real cosGamma = math::cos(gamma);
+  return (1 + a * toHorizon) * (1 + c * math::exp(d * gamma) + e * cosGamma * cosGamma);
 }
 
 Daylight::Daylight(Real turbidity, const Vec3& sun) {
   const Vec3 risen{sun.x, std::max(sun.y, 0.0), sun.z};
   sun_ = length(risen) > 0 ? normalize(risen) : Vec3{0, 0, -1};  // one straight below says no direction
-  sunFromTop_ = std::atan2(std::hypot(sun_.x, sun_.z), sun_.y);
+  sunFromTop_ = math::atan2(math::hypot(sun_.x, sun_.z), sun_.y);
   const Real T = std::clamp(turbidity, kLeastTurbidity, kMostTurbidity);
   zenith_ = zenithOf(T, sunFromTop_);
   Y_ = {0.1787 * T - 1.4630, -0.3554 * T + 0.4275, -0.0227 * T + 5.3251, 0.1206 * T - 2.5771,
@@ -63,7 +64,7 @@ ColorXyY Daylight::at(const Vec3& direction) const {
   const Real cosTheta = std::max(direction.y, 0.0);
   const Vec3 d = direction.y >= 0 ? direction : Vec3{direction.x, 0, direction.z};
   const Real across = length(d);
-  const Real gamma = across > 0 ? std::acos(std::clamp(dot(d, sun_) / across, -1.0, 1.0)) : sunFromTop_;
+  const Real gamma = across > 0 ? math::acos(std::clamp(dot(d, sun_) / across, -1.0, 1.0)) : sunFromTop_;
   const auto relative = [&](const Perez& f) { return f.at(cosTheta, gamma) / f.at(1, sunFromTop_); };
   return {zenith_.x * relative(x_), zenith_.y * relative(y_), zenith_.Y * relative(Y_)};
 }

@@ -1,5 +1,7 @@
 #include "shading/optics/diffusion.h"
 
+#include "math/elementary.h"
+
 namespace trace {
 
 Real diffuseFresnelInside(Real index) {
@@ -17,27 +19,27 @@ Dipole::Dipole(Real scatters, Real absorbs, Real index) {
   fade = std::sqrt(3 * absorbs * loses);
   below = 1 / loses;
   above = below * (1 + 4 * boundary / 3);
-  albedo = reduced / 2 * (std::exp(-fade * below) + std::exp(-fade * above));
+  albedo = reduced / 2 * (math::exp(-fade * below) + math::exp(-fade * above));
 }
 
 Real Dipole::profile(Real r) const {
   const auto of = [&](Real z) {
     const Real d = std::sqrt(r * r + z * z);
-    return z * (1 + fade * d) * std::exp(-fade * d) / (d * d * d);
+    return z * (1 + fade * d) * math::exp(-fade * d) / (d * d * d);
   };
   return albedo > 0 ? reduced / (4 * kPi) * (of(below) + of(above)) : 0;
 }
 
 Real Dipole::distance(Real u) const {
-  const Real real = std::exp(-fade * below), all = real + std::exp(-fade * above);
+  const Real real = math::exp(-fade * below), all = real + math::exp(-fade * above);
   const bool ofReal = u * all < real;
   const Real z = ofReal ? below : above;
   const Real rest = 1 - (ofReal ? u * all / real : (u * all - real) / (all - real));  // beyond the distance
   // ln(d) + s d = goal, which grows and bends downward: Newton's steps from the left stay on the left.
-  const Real goal = std::log(z) + fade * z - std::log(std::max(rest, 1e-300));
+  const Real goal = math::log(z) + fade * z - math::log(std::max(rest, 1e-300));
   Real d = z;
   for (int i = 0; i < 60; ++i) {
-    const Real step = (goal - std::log(d) - fade * d) / (1 / d + fade);
+    const Real step = (goal - math::log(d) - fade * d) / (1 / d + fade);
     d = std::max(z, d + step);
     if (!(std::abs(step) > 1e-12 * d)) break;
   }
@@ -53,13 +55,13 @@ NormalizedDiffusion::NormalizedDiffusion(Real scatters, Real absorbs, Real albed
 
 Real NormalizedDiffusion::profile(Real r) const {
   if (!(r > 0)) r = 1e-9 * reach;
-  return albedo * (std::exp(-r / reach) + std::exp(-r / (3 * reach))) / (8 * kPi * reach * r);
+  return albedo * (math::exp(-r / reach) + math::exp(-r / (3 * reach))) / (8 * kPi * reach * r);
 }
 
 Real NormalizedDiffusion::distance(Real u) const {
   const bool near = u < 0.25;
   const Real rest = 1 - (near ? u * 4 : (u - 0.25) / 0.75);
-  return -std::log(std::max(rest, 1e-300)) * reach * (near ? 1 : 3);
+  return -math::log(std::max(rest, 1e-300)) * reach * (near ? 1 : 3);
 }
 
 }  // namespace trace

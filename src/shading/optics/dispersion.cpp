@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/elementary.h"
+
 namespace trace {
 namespace {
 
@@ -22,7 +24,7 @@ constexpr Real kShortest = 400, kLongest = 700;
 /// Two halves of normal curves that meet at their top.
 Real lobe(Real x, Real top, Real below, Real above) {
   const Real t = (x - top) / (x < top ? below : above);
-  return std::exp(-t * t / 2);
+  return math::exp(-t * t / 2);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "math/elementary.h"
+
 namespace trace {
 namespace {
 
@@ -13,33 +15,33 @@ Real power(Real x, int n) { return n == 0 ? 1 : x * power(x, n - 1); }
 /// The logarithm of the modified Bessel function of the first kind and order 0.
 Real logBessel(Real x) {
   if (x > 20)
-    return x - std::log(2 * kPi * x) / 2 +
-           std::log(1 + 1 / (8 * x) + 9 / (128 * x * x) + 225 / (3072 * x * x * x));
+    return x - math::log(2 * kPi * x) / 2 +
+           math::log(1 + 1 / (8 * x) + 9 / (128 * x * x) + 225 / (3072 * x * x * x));
   Real sum = 1, term = 1;
   for (int i = 1; i < 40; ++i) {
     term *= x * x / (4.0 * i * i);
     sum += term;
   }
-  return std::log(sum);
+  return math::log(sum);
 }
 
 /// Along the strand: the density, per sine and cosine of the light's angle, around the mirrored eye (d'Eon
 /// and others 2011, equation 7).
 Real along(Real sinLight, Real cosLight, Real sinEye, Real cosEye, Real v) {
-  const Real logSinh = 1 / v + std::log1p(-std::exp(-2 / v)) - std::log(2);
-  return std::exp(logBessel(cosLight * cosEye / v) - sinLight * sinEye / v - logSinh - std::log(2 * v));
+  const Real logSinh = 1 / v + math::log1p(-math::exp(-2 / v)) - math::log(2);
+  return math::exp(logBessel(cosLight * cosEye / v) - sinLight * sinEye / v - logSinh - math::log(2 * v));
 }
 
 /// The logistic curve of that scale, cut to -pi .. pi.
 struct Logistic {
   Real scale, least, whole;
   explicit Logistic(Real s) : scale(s), least(below(-kPi)), whole(below(kPi) - least) {}
-  Real below(Real x) const { return 1 / (1 + std::exp(-x / scale)); }
+  Real below(Real x) const { return 1 / (1 + math::exp(-x / scale)); }
   Real density(Real x) const {
-    const Real e = std::exp(-std::abs(x) / scale);
+    const Real e = math::exp(-std::abs(x) / scale);
     return e / (scale * (1 + e) * (1 + e)) / whole;
   }
-  Real chosen(Real u) const { return std::clamp(-scale * std::log(1 / (u * whole + least) - 1), -kPi, kPi); }
+  Real chosen(Real u) const { return std::clamp(-scale * math::log(1 / (u * whole + least) - 1), -kPi, kPi); }
 };
 
 /// An angle as one from -pi to pi.
@@ -66,7 +68,7 @@ Color Marschner::absorption() const {
   if (hasPigments(*this)) return brown * max(0, eumelanin) + red * max(0, pheomelanin);
   const Real by = logarithmOfColor(*this);
   const auto channel = [&](Real c) {
-    const Real root = std::log(max(1e-6, min(1, c))) / by;
+    const Real root = math::log(max(1e-6, min(1, c))) / by;
     return root * root;
   };
   return {channel(color.r), channel(color.g), channel(color.b)};
@@ -76,7 +78,7 @@ Color Marschner::headColor() const {
   if (!hasPigments(*this)) return color;
   const Color absorbed = absorption();
   const Real by = logarithmOfColor(*this);
-  const auto channel = [&](Real a) { return std::exp(-std::sqrt(a) * std::abs(by)); };
+  const auto channel = [&](Real a) { return math::exp(-std::sqrt(a) * std::abs(by)); };
   return {channel(absorbed.r), channel(absorbed.g), channel(absorbed.b)};
 }
 
@@ -101,16 +103,16 @@ struct MarschnerBsdf::Seen {
     const Real sine = max(-1, min(1, eye.x)), cosine = std::sqrt(max(0, 1 - sine * sine));
     const Real across = std::sqrt(eye.y * eye.y + eye.z * eye.z), eta = max(1, bsdf.said.index);
     const Real offset = across > 0 ? max(-1, min(1, -eye.y / across)) : 0;  // from the strand's middle
-    around = std::atan2(eye.z, eye.y);
+    around = math::atan2(eye.z, eye.y);
     const Real bent =
         std::sqrt(max(0, eta * eta - sine * sine));  // the index across the strand, times cosine
     const Real cosInside = bent / eta;
     const Real sinOff = bent > 0 ? max(-1, min(1, offset * cosine / bent)) : 0;
-    const Real off = std::asin(offset), offInside = std::asin(sinOff);
+    const Real off = math::asin(offset), offInside = math::asin(sinOff);
 
-    const Real mirrored = fresnelDielectric(cosine * std::cos(off), 1, eta), in = 1 - mirrored;
+    const Real mirrored = fresnelDielectric(cosine * math::cos(off), 1, eta), in = 1 - mirrored;
     const auto passes = [&](Real absorbed) {
-      return cosInside > 0 ? std::exp(-absorbed * 2 * std::cos(offInside) / cosInside) : 0;
+      return cosInside > 0 ? math::exp(-absorbed * 2 * math::cos(offInside) / cosInside) : 0;
     };
     const Color t{passes(bsdf.absorption.r), passes(bsdf.absorption.g), passes(bsdf.absorption.b)};
     share[0] = Color(mirrored);
@@ -129,8 +131,9 @@ struct MarschnerBsdf::Seen {
     const Real tilts[] = {2, -1, -4, 0};  // how often the tilt of the scales counts
     for (std::size_t p = 0; p < kLobes; ++p) {
       const Real lean = tilts[p] * bsdf.said.tilt * kPi / 180;
-      sin[p] = sine * std::cos(lean) - cosine * std::sin(lean);
-      cos[p] = std::abs(cosine * std::cos(lean) + sine * std::sin(lean));
+      const math::SinCos by = math::sincos(lean);
+      sin[p] = sine * by.cos - cosine * by.sin;
+      cos[p] = std::abs(cosine * by.cos + sine * by.sin);
       turn[p] = 2 * static_cast<Real>(p) * offInside - 2 * off + static_cast<Real>(p) * kPi;
     }
   }
@@ -138,7 +141,7 @@ struct MarschnerBsdf::Seen {
 
 Real MarschnerBsdf::lobe(std::size_t p, const Seen& seen, const Vec3& light) const {
   const Real sine = max(-1, min(1, light.x)), cosine = std::sqrt(max(0, 1 - sine * sine));
-  const Real turned = std::atan2(light.z, light.y) - seen.around - seen.turn[p];
+  const Real turned = math::atan2(light.z, light.y) - seen.around - seen.turn[p];
   const Real around = p + 1 == kLobes ? 1 / (2 * kPi) : Logistic(scale).density(wrapped(turned));
   return along(sine, cosine, seen.sin[p], seen.cos[p], variance[p]) * around;
 }
@@ -164,13 +167,13 @@ Vec3 MarschnerBsdf::direction(const Vec3& eye, Real choose, Vec2 u) const {
   while (p + 1 < kLobes && choose >= seen.often[p]) choose -= seen.often[p++];
   const Real rest = seen.often[p] > 0 ? min(choose / seen.often[p], 0x1.fffffep-1) : 0;
   // A turn away from the mirrored eye, and one around it (d'Eon, Marschner and Hanika, SIGGRAPH Asia 2013).
-  const Real v = variance[p], c = 1 + v * std::log((1 - u.x) + u.x * std::exp(-2 / v));
+  const Real v = variance[p], c = 1 + v * math::log((1 - u.x) + u.x * math::exp(-2 / v));
   const Real s = std::sqrt(max(0, 1 - c * c));
-  const Real sine = max(-1, min(1, -c * seen.sin[p] + s * std::cos(2 * kPi * u.y) * seen.cos[p]));
+  const Real sine = max(-1, min(1, -c * seen.sin[p] + s * math::cos(2 * kPi * u.y) * seen.cos[p]));
   const Real cosine = std::sqrt(max(0, 1 - sine * sine));
   const Real turn = p + 1 == kLobes ? 2 * kPi * rest : seen.turn[p] + Logistic(scale).chosen(rest);
-  const Real around = seen.around + turn;
-  return {sine, cosine * std::cos(around), cosine * std::sin(around)};
+  const math::SinCos around = math::sincos(seen.around + turn);
+  return {sine, cosine * around.cos, cosine * around.sin};
 }
 
 }  // namespace trace

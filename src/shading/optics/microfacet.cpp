@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "math/between.h"
+#include "math/elementary.h"
 #include "shading/optics/fresnel.h"
 
 namespace trace {
@@ -13,7 +14,7 @@ namespace {
 /// precision), made exact by a step of Newton's.
 Real inverseErf(Real y) {
   y = std::clamp(y, -1 + 0x1p-50, 1 - 0x1p-50);
-  Real w = -std::log((1 - y) * (1 + y)), p = 0;
+  Real w = -math::log((1 - y) * (1 + y)), p = 0;
   const auto horner = [&](const std::array<Real, 9>& c) {
     p = c[0];
     for (std::size_t i = 1; i < c.size(); ++i) p = p * w + c[i];
@@ -28,7 +29,7 @@ Real inverseErf(Real y) {
             0.00943887047, 1.00167406, 2.83297682});
   }
   const Real x = p * y;
-  return x - (std::erf(x) - y) * std::sqrt(kPi) / 2 * std::exp(x * x);
+  return x - (math::erf(x) - y) * std::sqrt(kPi) / 2 * math::exp(x * x);
 }
 
 /// Chooses by u from 0 to 1 a slope along the view among those of Beckmann's surface of width 1 that are seen
@@ -39,13 +40,13 @@ Real visibleSlope(Real cosine, Real u) {
   if (sine < 1e-7) return inverseErf(2 * u - 1);
   const Real last = cosine / sine;
   const auto below = [&](Real erf, Real s) {
-    return (1 + erf) * cosine + std::exp(-s * s) * sine / std::sqrt(kPi);
+    return (1 + erf) * cosine + math::exp(-s * s) * sine / std::sqrt(kPi);
   };
-  const Real wanted = u * below(std::erf(last), last);
+  const Real wanted = u * below(math::erf(last), last);
   Real low = -6, high = min(6, last);
   for (int i = 0; i < 50 && high - low > 1e-12; ++i) {
     const Real middle = (low + high) / 2;
-    (below(std::erf(middle), middle) < wanted ? low : high) = middle;
+    (below(math::erf(middle), middle) < wanted ? low : high) = middle;
   }
   return (low + high) / 2;
 }
@@ -72,8 +73,9 @@ Vec3 Microfacets::chosen(const Vec3& eye, Vec2 u) const {
   // Heitz, Sampling the GGX Distribution of Visible Normals, JCGT 7(4), 2018.
   const Real across = v.x * v.x + v.y * v.y;
   const Vec3 t1 = across > 0 ? Vec3{-v.y, v.x, 0} / std::sqrt(across) : Vec3{1, 0, 0}, t2 = cross(v, t1);
-  const Real r = std::sqrt(u.x), phi = 2 * kPi * u.y, p1 = r * std::cos(phi), s = (1 + v.z) / 2;
-  const Real p2 = (1 - s) * std::sqrt(max(0, 1 - p1 * p1)) + s * r * std::sin(phi);
+  const math::SinCos phi = math::sincos(2 * kPi * u.y);
+  const Real r = std::sqrt(u.x), p1 = r * phi.cos, s = (1 + v.z) / 2;
+  const Real p2 = (1 - s) * std::sqrt(max(0, 1 - p1 * p1)) + s * r * phi.sin;
   const Vec3 h = t1 * p1 + t2 * p2 + v * std::sqrt(max(0, 1 - p1 * p1 - p2 * p2));
   return normalize(Vec3{x * h.x, y * h.y, max(0, h.z)});
 }
@@ -177,7 +179,7 @@ struct GrainTable {
     for (int w = 0; w <= kWidths; ++w)
       for (int g = 0; g <= kGrains; ++g) {
         const Real root = max(0.01, 1.0 * w / kWidths * kMostRoughness);
-        const Real aspect = std::pow(kMostGrain, 0.5 * g / kGrains);
+        const Real aspect = math::pow(kMostGrain, 0.5 * g / kGrains);
         const Microfacets facets{kind, root * root * aspect, root * root / aspect};
         mean[w][g] = {0, 0};
         for (int a = 0; a <= kAround; ++a) {
@@ -195,7 +197,7 @@ struct GrainTable {
   /// How much of a mean over all angles the entry counts, if values between entries are on the line between
   /// them.
   static Real shareAround(int entry) {
-    const auto angle = [](int i) { return std::acos(1.0 * i / kAround) * 2 / kPi; };
+    const auto angle = [](int i) { return math::acos(1.0 * i / kAround) * 2 / kPi; };
     const auto sine = [](int i) { return std::sqrt(1 - Real(i * i) / (kAround * kAround)) * 2 / kPi; };
     // The integrals of 1 and of the cosine over the angles between two entries.
     const auto all = [&](int i) { return angle(i) - angle(i + 1); };
@@ -210,7 +212,7 @@ struct GrainTable {
     return {std::sqrt(std::sqrt(f.x * f.y)) / kMostRoughness, kWidths};
   }
   static Between grain(const Microfacets& f) {
-    return {std::abs(std::log(f.x / f.y)) / std::log(kMostGrain), kGrains};
+    return {std::abs(math::log(f.x / f.y)) / math::log(kMostGrain), kGrains};
   }
 };
 
@@ -323,7 +325,7 @@ Real fresnelNode(std::size_t k) {
   static const FacetShares kNodes = [] {
     FacetShares nodes;
     for (std::size_t i = 0; i < kFresnelNodes; ++i)
-      nodes[i] = (1 - std::cos((2 * static_cast<Real>(i) + 1) * kPi / (2 * kFresnelNodes))) / 2;
+      nodes[i] = (1 - math::cos((2 * static_cast<Real>(i) + 1) * kPi / (2 * kFresnelNodes))) / 2;
     return nodes;
   }();
   return kNodes[k];

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "math/elementary.h"
 #include "math/vec.h"
 #include "shading/scattering.h"
 
@@ -33,7 +34,7 @@ struct Microfacets {
     if (!(h.z > 0)) return 0;
     const Real sx = h.x / x, sy = h.y / y, slopes = sx * sx + sy * sy, c = h.z * h.z;
     if (kind == Distribution::ggx) return 1 / (kPi * x * y * (slopes + c) * (slopes + c));
-    return std::exp(-slopes / c) / (kPi * x * y * c * c);
+    return math::exp(-slopes / c) / (kPi * x * y * c * c);
   }
   /// Smith's Lambda for a direction above the surface.
   Real lambda(const Vec3& v) const {
@@ -42,7 +43,7 @@ struct Microfacets {
     const Real a = v.z / across;
     if (kind == Distribution::ggx) return (std::sqrt(1 + 1 / (a * a)) - 1) / 2;
     // For large a the difference of nearly equal numbers, which is nearly 0.
-    return max(0, (std::exp(-a * a) / (a * std::sqrt(kPi)) - std::erfc(a)) / 2);
+    return max(0, (math::exp(-a * a) / (a * std::sqrt(kPi)) - math::erfc(a)) / 2);
   }
   /// The share of mirrors that is seen from one side, and that is both seen and lit.
   Real seen(const Vec3& v) const { return 1 / (1 + lambda(v)); }
@@ -71,7 +72,7 @@ struct Microfacets {
   Real sharpShare() const {
     constexpr Real kSquare = 0.0076543;  // tan^2
     const Real widths = x * y;
-    return kind == Distribution::ggx ? kSquare / (kSquare + widths) : 1 - std::exp(-kSquare / widths);
+    return kind == Distribution::ggx ? kSquare / (kSquare + widths) : 1 - math::exp(-kSquare / widths);
   }
 };
 

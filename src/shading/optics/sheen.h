@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "math/elementary.h"
 #include "math/vec.h"
 #include "shading/scattering.h"
 
@@ -22,7 +23,7 @@ struct Sheen {
   Real value(const Vec3& eye, const Vec3& light) const {
     const Vec3 half = halfway(eye, light);
     const Real sine = std::sqrt(max(0, 1 - half.z * half.z)), n = 1 / roughness;
-    const Real spread = (2 + n) * std::pow(sine, n) / (2 * kPi);
+    const Real spread = (2 + n) * math::pow(sine, n) / (2 * kPi);
     const Real sum = eye.z + light.z - eye.z * light.z;
     return sum > 0 ? spread / (4 * sum) * light.z : 0;
   }

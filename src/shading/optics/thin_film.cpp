@@ -2,15 +2,13 @@
 
 #include <array>
 #include <cmath>
-#include <complex>
 #include <vector>
 
+#include "math/complex.h"
 #include "shading/optics/dispersion.h"
 
 namespace trace {
 namespace {
-
-using Complex = std::complex<Real>;
 
 /// Terms that are the same for all wavelengths.
 struct Faces {
@@ -21,7 +19,7 @@ struct Faces {
   Real path = 0;          ///< how much longer the way through the film is, in nanometres
 
   Faces(const ThinFilm& film, Real cosine) {
-    const Real s2 = meet(film, cosine, film.behind).real();
+    const Real s2 = meet(film, cosine, {film.behind}).re;
     total |= !(s2 > 0);
     if (total) return;
     const Real c1 = inFilm_, c2 = std::sqrt(s2), n1 = film.index, n2 = film.behind;
@@ -29,13 +27,13 @@ struct Faces {
     back[1] = amplitude(n2 * c1, n1 * c2);
   }
   Faces(const ThinFilm& film, const Complex& metal, Real cosine) {
-    const Complex c2 = std::sqrt(meet(film, cosine, metal));
+    const Complex c2 = sqrt(meet(film, cosine, metal));
     if (total) return;
-    const Complex a = film.index * inFilm_, b = metal * c2, c = metal * inFilm_, d = film.index * c2;
+    const Complex a{film.index * inFilm_}, b = metal * c2, c = inFilm_ * metal, d = film.index * c2;
     const Complex amplitudes[2] = {(a - b) / (a + b), (c - d) / (c + d)};
     for (int i = 0; i < 2; ++i) {
-      back[i] = std::abs(amplitudes[i]);
-      turn[i] = std::arg(amplitudes[i]);
+      back[i] = abs(amplitudes[i]);
+      turn[i] = arg(amplitudes[i]);
     }
   }
 
@@ -44,7 +42,7 @@ struct Faces {
     Real sum = 0;
     for (int i = 0; i < 2; ++i) {  // Airy's sum of all ways to and fro
       const Real r = front[i], s = back[i];
-      const Real cross = 2 * r * s * std::cos(2 * kPi * path / wavelength + turn[i]);
+      const Real cross = 2 * r * s * math::cos(2 * kPi * path / wavelength + turn[i]);
       const Real below = 1 + r * r * s * s + cross;
       sum += below > 0 ? (r * r + s * s + cross) / below : 1;
     }
@@ -64,8 +62,7 @@ struct Faces {
     front[0] = amplitude(c0, n1 * inFilm_);
     front[1] = amplitude(n1 * c0, inFilm_);
     path = 2 * n1 * inFilm_ * film.nanometres;
-    return behind.imag() == 0 ? 1 - square / (behind.real() * behind.real())
-                              : 1.0 - square / (behind * behind);
+    return Complex{1} - Complex{square} / (behind * behind);
   }
 
   Real inFilm_ = 0;  ///< the cosine there
@@ -103,11 +100,11 @@ class Coherence {
 };
 
 const Coherence& cosines() {
-  static const Coherence kTable([](Real x) { return std::cos(x); });
+  static const Coherence kTable([](Real x) { return math::cos(x); });
   return kTable;
 }
 const Coherence& sines() {
-  static const Coherence kTable([](Real x) { return std::sin(x); });
+  static const Coherence kTable([](Real x) { return math::sin(x); });
   return kTable;
 }
 
@@ -124,8 +121,8 @@ Color mirroredWhite(Real r, Real s, Real turn, Real path) {
     if (turn == 0)
       sum += cosines().at(m * path) * factor;
     else
-      sum +=
-          (cosines().at(m * path) * std::cos(m * turn) + sines().at(m * path) * -std::sin(m * turn)) * factor;
+      sum += (cosines().at(m * path) * math::cos(m * turn) + sines().at(m * path) * -math::sin(m * turn)) *
+             factor;
   }
   return Color(1) + sum * (-passes / below);
 }

@@ -1,6 +1,7 @@
 // A number that grows along a line, from an axis, from a point, or around an axis.
 #pragma once
 
+#include "math/elementary.h"
 #include "shading/textures/pattern.h"
 
 namespace trace {
@@ -48,7 +49,7 @@ struct Gradient : PatternColors {
       case GradientShape::radial: return std::sqrt(p.x * p.x + p.y * p.y);
       case GradientShape::spherical: return length(p);
       case GradientShape::angular: {
-        const Real turn = std::atan2(p.y, p.x) / (2 * kPi);
+        const Real turn = math::atan2(p.y, p.x) / (2 * kPi);
         return turn < 0 ? turn + 1 : turn;
       }
     }

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "math/elementary.h"
 #include "math/noise.h"
 #include "shading/textures/cells.h"
 #include "shading/textures/pattern.h"
@@ -97,8 +98,8 @@ struct Solid : PatternColors {
     switch (kind) {
       case SolidPattern::bozo: return noiseAt(p);
       case SolidPattern::agate: {
-        const Real t = 0.5 * (std::sin(2 * kPi * (0.5 * (1.3 * number * sum(p) + 1.1 * p.z))) + 1);
-        return std::pow(std::clamp(t, 0.0, 1.0), 0.77);
+        const Real t = 0.5 * (math::sin(2 * kPi * (0.5 * (1.3 * number * sum(p) + 1.1 * p.z))) + 1);
+        return math::pow(std::clamp(t, 0.0, 1.0), 0.77);
       }
       case SolidPattern::granite: {
         Real value = 0, f = 1;
@@ -107,19 +108,19 @@ struct Solid : PatternColors {
       }
       case SolidPattern::gradient: return dot(p, axis);
       case SolidPattern::leopard: {
-        const Real s = (std::sin(p.x) + std::sin(p.y) + std::sin(p.z)) / 3;
+        const Real s = (math::sin(p.x) + math::sin(p.y) + math::sin(p.z)) / 3;
         return s * s;
       }
       case SolidPattern::onion: return length(p);
       case SolidPattern::marble: return p.x + (turbulence == Vec3{} ? 0 : turbulence.x * sum(p));
-      case SolidPattern::wood: return std::hypot(p.x, p.y);
+      case SolidPattern::wood: return math::hypot(p.x, p.y);
       case SolidPattern::radial: {
-        const Real turn = 0.25 + (std::atan2(p.x, p.z) + kPi) / (2 * kPi);
+        const Real turn = 0.25 + (math::atan2(p.x, p.z) + kPi) / (2 * kPi);
         return turn - std::floor(turn);
       }
       case SolidPattern::spherical: return std::max(0.0, 1 - length(p));
       case SolidPattern::boxed: return std::max(0.0, 1 - maxComponent(abs(p)));
-      case SolidPattern::cylindrical: return std::max(0.0, 1 - std::hypot(p.x, p.z));
+      case SolidPattern::cylindrical: return std::max(0.0, 1 - math::hypot(p.x, p.z));
       case SolidPattern::planar: return std::max(0.0, 1 - std::abs(p.y));
       case SolidPattern::wrinkles: {
         Real value = noiseAt(p), f = 2;
@@ -151,7 +152,7 @@ struct Solid : PatternColors {
                                              (bits >> 20 & 1023) / 511.5 - 1.003});
           const Real away = std::max(length(p - source), 1e-3);
           const Real f = kind == SolidPattern::waves ? 0.25 + 4 * ((bits >> 5 & 255) / 255.0) : 1;
-          value += (kind == SolidPattern::waves ? 1 / f : 1) * std::sin(2 * kPi * (away * f + phase));
+          value += (kind == SolidPattern::waves ? 1 / f : 1) * math::sin(2 * kPi * (away * f + phase));
         }
         return 0.5 + 0.5 * value / kSources;
       }
@@ -200,10 +201,10 @@ struct Solid : PatternColors {
     switch (wave) {
       case SolidWave::saw: return t;
       case SolidWave::triangle: return t < 0.5 ? 2 * t : 2 * (1 - t);
-      case SolidWave::sine: return 0.5 * (1 + std::sin(2 * kPi * t));
-      case SolidWave::scallop: return std::abs(std::sin(kPi * t));
+      case SolidWave::sine: return 0.5 * (1 + math::sin(2 * kPi * t));
+      case SolidWave::scallop: return std::abs(math::sin(kPi * t));
       case SolidWave::cubic: return t * t * (3 - 2 * t);
-      case SolidWave::power: return std::pow(std::max(t, 0.0), exponent);
+      case SolidWave::power: return math::pow(std::max(t, 0.0), exponent);
     }
     return t;
   }
@@ -227,8 +228,8 @@ struct Solid : PatternColors {
   }
   /// Spirals on cones around z that turn that way: whole numbers lie on one.
   Real spiralAt(const Vec3& p, Real turn) const {
-    const Real around = std::atan2(p.y, p.x) / (2 * kPi) + 0.25;
-    return std::hypot(p.x, p.y) + p.z + turn * number * around;
+    const Real around = math::atan2(p.y, p.x) / (2 * kPi) + 0.25;
+    return math::hypot(p.x, p.y) + p.z + turn * number * around;
   }
   /// 0 at whole numbers, 1 half way between them.
   static Real peak(Real t) { return 1 - std::abs(1 - 2 * (t - std::floor(t))); }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "app/view/picture_views.h"
+#include "math/elementary.h"
 #include "studio/panels.h"
 #include "studio/picture/picture_parts.h"
 #include "studio/widgets/drag.h"
@@ -224,12 +225,12 @@ void drawHistogram(const Studio& studio, ImVec2 low, ImVec2 high) {
   list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(0, 0, 0, 190), 4);
   constexpr ImU32 kColours[] = {IM_COL32(255, 90, 90, 255), IM_COL32(90, 220, 90, 255),
                                 IM_COL32(110, 150, 255, 255)};
-  const float most = std::log1p(static_cast<float>(histogram.most));
+  const auto most = static_cast<float>(math::log1p(histogram.most));
   for (std::size_t channel = 0; channel < 3; ++channel) {
     ImVec2 line[Histogram::kBins];
     for (std::size_t bin = 0; bin < Histogram::kBins; ++bin) {
       const float share =
-          std::min(1.0f, std::log1p(static_cast<float>(histogram.counts[channel][bin])) / most);
+          std::min(1.0f, static_cast<float>(math::log1p(histogram.counts[channel][bin])) / most);
       line[bin] = {corner.x + 4 + (size.x - 8) * static_cast<float>(bin) / (Histogram::kBins - 1),
                    corner.y + size.y - 4 - (size.y - 8) * share};
     }
@@ -243,7 +244,7 @@ void zoomAndPan(PictureView& view, const FrameArea& frame) {
     const double x = (io.MousePos.x - frame.low.x) / frame.size.x,
                  y = (io.MousePos.y - frame.low.y) / frame.size.y;
     const float before = view.zoom;
-    view.zoom = std::clamp(view.zoom * std::pow(1.25f, io.MouseWheel), 0.02f, 128.0f);
+    view.zoom = std::clamp(view.zoom * static_cast<float>(math::pow(1.25, io.MouseWheel)), 0.02f, 128.0f);
     const double keep = before / view.zoom;  // the place under the cursor stays there
     view.centreX = x + (view.centreX - x) * keep;
     view.centreY = y + (view.centreY - y) * keep;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "math/elementary.h"
 #include "math/perpendicular.h"
 #include "shading/lights/goniometric_light.h"
 #include "shading/lights/projector_light.h"
@@ -74,7 +75,7 @@ void addPanel(const P& panel, const Color& c, Pen& pen) {
 std::optional<Real> halfWidth(Real degrees) {
   constexpr Real kWidest = 80;
   if (!(degrees < kWidest)) return {};
-  return std::tan(degrees * kPi / 180);
+  return math::tan(degrees * kPi / 180);
 }
 
 void addLight(const Light& light, const Vec3& target, Real radius, Pen& pen) {
@@ -193,7 +194,7 @@ void addPhotons(const RayNode& node, const Color& colour, const Vec3& eye, Pen& 
     Vec3 last;
     for (int i = 0; i <= kRim; ++i) {
       const Real angle = 2 * kPi * i / kRim;
-      const Vec3 at = middle + basis.toWorld({std::cos(angle) * radius, std::sin(angle) * radius, 0});
+      const Vec3 at = middle + basis.toWorld({math::cos(angle) * radius, math::sin(angle) * radius, 0});
       if (i > 0) pen.line(last, at, colour, 1, 1.5f, larger > 1 ? 3 : 0);
       last = at;
     }

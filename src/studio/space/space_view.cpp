@@ -9,6 +9,7 @@
 #include "app/explain/pixel_why.h"
 #include "app/view/magnifier.h"
 #include "app/view/room.h"
+#include "math/elementary.h"
 #include "scene/picture_size.h"
 #include "studio/scene/selection.h"
 #include "studio/space/gizmo_view.h"
@@ -171,7 +172,7 @@ float distanceTo(const RaysView& view, const Matrix4& matrix, ImVec2 low, ImVec2
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const double wx = q.x - p.x, wy = q.y - p.y, l = wx * wx + wy * wy;
   const double t = l > 0 ? std::clamp(((mouse.x - p.x) * wx + (mouse.y - p.y) * wy) / l, 0.0, 1.0) : 0;
-  return static_cast<float>(std::hypot(p.x + t * wx - mouse.x, p.y + t * wy - mouse.y));
+  return static_cast<float>(math::hypot(p.x + t * wx - mouse.x, p.y + t * wy - mouse.y));
 }
 
 int rayUnderCursor(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size) {
@@ -244,7 +245,7 @@ void drawLightsBeyond(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 
     const Vec2 toward{at[0] / w * size.x, -at[1] / w * size.y};
     const Vec2 place = edgeMark({size.x, size.y}, toward, 2 * side);
     const ImVec2 mark{low.x + static_cast<float>(place.x), low.y + static_cast<float>(place.y)};
-    const double far = std::max(std::hypot(toward.x, toward.y), 1e-12);
+    const double far = std::max(math::hypot(toward.x, toward.y), 1e-12);
     const auto x = static_cast<float>(toward.x / far) * side, y = static_cast<float>(toward.y / far) * side;
     Color c(1);
     if (const Color* own = scene.lights[i].light.color())
@@ -316,7 +317,7 @@ void moveCamera(Studio& studio, const CameraFrame& camera, ImVec2 size) {
     if (ImGui::IsMouseDragging(1) || ImGui::IsMouseDragging(2) || (ImGui::IsMouseDragging(0) && shift))
       view.orbit.move(-dx, dy);
   }
-  if (zooms) view.orbit.approach(std::pow(0.85, io.MouseWheel));
+  if (zooms) view.orbit.approach(math::pow(0.85, io.MouseWheel));
 }
 
 void selectObjectUnderCursor(Studio& studio, const CameraFrame& frame, ImVec2 low, ImVec2 size) {
@@ -405,8 +406,8 @@ void drawSwitches(Studio& studio) {
   ImGui::Checkbox("hierarchy boxes of the selected ray", &view.hierarchyShown);
   ImGui::SetNextItemWidth(characters(20));
   const char* const kFineness[] = {"coarse", "usual", "fine", "finest"};
-  int finer = std::clamp(static_cast<int>(std::lround(std::log2(view.fineness))) + 1, 0, 3);
-  if (ImGui::Combo("triangles", &finer, kFineness, 4)) view.fineness = std::exp2(finer - 1);
+  int finer = std::clamp(static_cast<int>(std::lround(math::log2(view.fineness))) + 1, 0, 3);
+  if (ImGui::Combo("triangles", &finer, kFineness, 4)) view.fineness = math::exp2(finer - 1);
   landmark("triangles");
   ImGui::SetNextItemWidth(characters(20));
   ImGui::SliderFloat("opacity", &view.opacity, 0.1f, 1, "%.2f");

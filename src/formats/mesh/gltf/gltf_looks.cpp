@@ -14,6 +14,7 @@
 #include "formats/mesh/gltf/document/gltf_numbers.h"
 #include "formats/mesh/gltf/document/gltf_values.h"
 #include "formats/mesh/gltf/gltf_material.h"
+#include "math/elementary.h"
 #include "shading/materials/principled.h"
 #include "shading/textures/image_map.h"
 
@@ -55,7 +56,7 @@ tinygltf::TextureInfo textureIn(const tinygltf::Material& from, const char* exte
 
 /// T R S of KHR_texture_transform, where v grows downward, as Trace sees it.
 std::array<Real, 6> placementOf(const Vec2& offset, Real radians, const Vec2& scale) {
-  const Real c = radians == 0 ? 1 : std::cos(radians), s = radians == 0 ? 0 : std::sin(radians);
+  const Real c = radians == 0 ? 1 : math::cos(radians), s = radians == 0 ? 0 : math::sin(radians);
   const Real uu = c * scale.x, uv = s * scale.y, vu = -s * scale.x, vv = c * scale.y;
   return {uu, 0 - uv, uv + offset.x, 0 - vu, vv, 1 - vv - offset.y};
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/mesh/mesh.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 Affine turnedBy(double x, double y, double z, double w) {
   const Vec3 axis{x, y, z};
   const Real sine = length(axis);
-  return sine > 0 ? Affine::rotation(axis / sine, 2 * std::atan2(sine, w)) : Affine{};
+  return sine > 0 ? Affine::rotation(axis / sine, 2 * math::atan2(sine, w)) : Affine{};
 }
 
 /// Between two unit quaternions, the shorter way (appendix C.4).
@@ -24,10 +25,10 @@ std::vector<double> slerp(const std::vector<double>& from, std::vector<double> t
   for (std::size_t i = 0; i < 4; ++i) cosine += from[i] * to[i];
   if (cosine < 0)
     for (double& x : to) x = -x;
-  const double angle = std::acos(std::min(std::abs(cosine), 1.0));
+  const double angle = math::acos(std::min(std::abs(cosine), 1.0));
   constexpr double kStraight = 1e-6;
-  const double a = angle < kStraight ? 1 - part : std::sin((1 - part) * angle) / std::sin(angle);
-  const double b = angle < kStraight ? part : std::sin(part * angle) / std::sin(angle);
+  const double a = angle < kStraight ? 1 - part : math::sin((1 - part) * angle) / math::sin(angle);
+  const double b = angle < kStraight ? part : math::sin(part * angle) / math::sin(angle);
   for (std::size_t i = 0; i < 4; ++i) to[i] = a * from[i] + b * to[i];
   return to;
 }

@@ -19,6 +19,7 @@
 #include "base/text.h"
 #include "formats/words.h"
 #include "geometry/shape.h"
+#include "math/elementary.h"
 #include "math/vec.h"
 
 namespace trace::rayfile {
@@ -239,8 +240,8 @@ class Translator {
     if (const auto absorbs = vector(block, "absorb")) {  // Beer's law, per unit of length
       take({"absorb"});
       fields += "attenuation_color = " +
-                text(Vec3{std::exp(-max(0, absorbs->x)), std::exp(-max(0, absorbs->y)),
-                          std::exp(-max(0, absorbs->z))}) +
+                text(Vec3{math::exp(-max(0, absorbs->x)), math::exp(-max(0, absorbs->y)),
+                          math::exp(-max(0, absorbs->z))}) +
                 "; attenuation_distance = 1; ";
     }
     if (const auto gloss = number(block, "glossiness")) {
@@ -419,9 +420,9 @@ class Translator {
       std::string points;
       for (int k = -1; k <= stations + 1; ++k) {
         const Real phi = 2 * kPi * rounds * k / stations, turn = q * phi + i * kPi;
-        const Real away = radius + p * std::sin(turn);
-        points += "(" + text(away * std::sin(phi)) + ", " + text(p * std::cos(turn)) + ", " +
-                  text(away * std::cos(phi)) + ", " + text(tube) + "), ";
+        const Real away = radius + p * math::sin(turn);
+        points += "(" + text(away * math::sin(phi)) + ", " + text(p * math::cos(turn)) + ", " +
+                  text(away * math::cos(phi)) + ", " + text(tube) + "), ";
       }
       tubes += "sphere_sweep { _0; spline = catmull; points = (" + points + "); } ";
     }
@@ -602,7 +603,7 @@ class Translator {
     const auto parameters = vector(block, "parms"), position = vector(block, "position"),
                direction = vector(block, "direction"), color = this->color(block);
     if (!parameters || !position || !direction || !color || !(parameters->y > 0)) return false;
-    const Real angle = std::atan2(parameters->x, parameters->y) * 180 / kPi;
+    const Real angle = math::atan2(parameters->x, parameters->y) * 180 / kPi;
     make(call, "spot_light { position = " + text(*position) + "; direction = " + text(*direction) +
                    "; color = " + text(*color) + "; angle = " + text(angle) + "; full_angle = " +
                    text(angle) + "; exponent = " + text(std::max(0.0, parameters->z)) + "; }");

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "image/srgb.h"
+#include "math/elementary.h"
 #include "math/noise.h"
 
 namespace trace::rayfile {
@@ -31,7 +32,7 @@ double ofNumbers(Op op, double a, double b) {
     case Op::modulo:  // has the sign of b, so that angles and indices wrap
       if (b == 0) refuse("division by 0");
       return finite(a - b * std::floor(a / b));
-    default: return finite(std::pow(a, b));
+    default: return finite(math::pow(a, b));
   }
 }
 
@@ -122,20 +123,20 @@ Value steps(Arguments a, std::uint64_t&) {
 
 constexpr std::string_view kX = "x";
 constexpr std::array kFunctions{
-    Function{"sin", kX, 1, 1, "sine of an angle: sin(30 deg) is 0.5", ofOne<std::sin>, Angles::taken},
-    Function{"cos", kX, 1, 1, "cosine of an angle", ofOne<std::cos>, Angles::taken},
-    Function{"tan", kX, 1, 1, "tangent of an angle", ofOne<std::tan>, Angles::taken},
-    Function{"asin", kX, 1, 1, "the angle of that sine", ofOne<std::asin>, Angles::given},
-    Function{"acos", kX, 1, 1, "the angle of that cosine", ofOne<std::acos>, Angles::given},
-    Function{"atan", kX, 1, 1, "the angle of that tangent", ofOne<std::atan>, Angles::given},
+    Function{"sin", kX, 1, 1, "sine of an angle: sin(30 deg) is 0.5", ofOne<math::sin>, Angles::taken},
+    Function{"cos", kX, 1, 1, "cosine of an angle", ofOne<math::cos>, Angles::taken},
+    Function{"tan", kX, 1, 1, "tangent of an angle", ofOne<math::tan>, Angles::taken},
+    Function{"asin", kX, 1, 1, "the angle of that sine", ofOne<math::asin>, Angles::given},
+    Function{"acos", kX, 1, 1, "the angle of that cosine", ofOne<math::acos>, Angles::given},
+    Function{"atan", kX, 1, 1, "the angle of that tangent", ofOne<math::atan>, Angles::given},
     Function{"atan2", "y, x", 2, 2, "the angle of the point (x, y)",
              [](Arguments a, std::uint64_t&) -> Value {
-               return std::atan2(needNumber(a[0], "as y"), needNumber(a[1], "as x"));
+               return math::atan2(needNumber(a[0], "as y"), needNumber(a[1], "as x"));
              },
              Angles::given},
     Function{"sqrt", kX, 1, 1, "square root", ofOne<std::sqrt>},
-    Function{"exp", kX, 1, 1, "e to that power", ofOne<std::exp>},
-    Function{"log", kX, 1, 1, "natural logarithm", ofOne<std::log>},
+    Function{"exp", kX, 1, 1, "e to that power", ofOne<math::exp>},
+    Function{"log", kX, 1, 1, "natural logarithm", ofOne<math::log>},
     Function{"abs", kX, 1, 1, "without its sign", ofOne<std::fabs>},
     Function{"floor", kX, 1, 1, "the next whole number below", ofOne<std::floor>},
     Function{"ceil", kX, 1, 1, "the next whole number above", ofOne<std::ceil>},
@@ -169,12 +170,12 @@ constexpr std::array kFunctions{
     Function{"length", "v", 1, 1, "length of a vector",
              [](Arguments a, std::uint64_t&) -> Value {
                const auto v = needVector(a[0]);
-               return finite(std::hypot(v[0], v[1], v[2]));
+               return finite(math::hypot(v[0], v[1], v[2]));
              }},
     Function{"normalize", "v", 1, 1, "the vector with length 1",
              [](Arguments a, std::uint64_t&) -> Value {
                const auto v = needVector(a[0]);
-               const double length = std::hypot(v[0], v[1], v[2]);
+               const double length = math::hypot(v[0], v[1], v[2]);
                if (!(length > 0)) refuse("a vector of length 0 has no direction");
                return vectorOf(v[0] / length, v[1] / length, v[2] / length);
              }},

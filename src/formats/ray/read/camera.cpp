@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "formats/directions.h"
 #include "formats/ray/read/fields.h"
+#include "math/elementary.h"
 
 namespace trace::rayfile {
 namespace {
@@ -33,7 +34,7 @@ class CameraReader {
       findings_.warn(block, "camera: expected near to be less than far, found " + toText(camera_.near) +
                                 " and " + toText(camera_.far) + ": nothing is seen");
     if (horizontalFov_ > 0 && findings_.errors() == before)
-      camera_.fov = std::atan(std::tan(horizontalFov_ * kPi / 360) / camera_.aspectratio) * 360 / kPi;
+      camera_.fov = math::atan(math::tan(horizontalFov_ * kPi / 360) / camera_.aspectratio) * 360 / kPi;
     return camera_;
   }
 
@@ -99,11 +100,11 @@ class CameraReader {
     Real q[4];
     if (!numbers(item.value(), q, 4)) return findings_.expected(item.value(), item.key(), "(x, y, z, w)");
     const Vec3 axis{q[0], q[1], q[2]};
-    const Real sine = std::hypot(axis.x, axis.y, axis.z), norm = std::hypot(sine, q[3]);
+    const Real sine = math::hypot(axis.x, axis.y, axis.z), norm = math::hypot(sine, q[3]);
     if (!(norm > 0 && std::isfinite(norm)))
       return findings_.expected(item.value(), item.key(), "a quaternion that is not zero");
     Affine turn;
-    if (sine > 0) turn = Affine::rotation(axis / sine, 2 * std::atan2(sine, q[3]));
+    if (sine > 0) turn = Affine::rotation(axis / sine, 2 * math::atan2(sine, q[3]));
     turned_ = true;
     if (!viewdir_) camera_.viewdir = linear(turn, {0, 0, -1});
     if (!updir_) camera_.updir = linear(turn, {0, 1, 0});

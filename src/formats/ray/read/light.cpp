@@ -10,6 +10,7 @@
 
 #include "base/text.h"
 #include "formats/ray/read/fields.h"
+#include "math/elementary.h"
 #include "shading/lights/light.h"
 #include "shading/lights/point_light.h"
 #include "shading/lights/spot_light.h"
@@ -55,9 +56,9 @@ class StudentSpot {
   /// The default of the part that does not fade.
   void settle(SpotLight& light) const {
     // Blender's: the part of the cone that fades, measured along the axis.
-    const Real edge = std::cos(light.angle * kPi / 180), soft = std::clamp(blend_, 0.0, 1.0);
+    const Real edge = math::cos(light.angle * kPi / 180), soft = std::clamp(blend_, 0.0, 1.0);
     if (blend_ > 0)
-      light.fullAngle = std::acos(std::min(1.0, edge + (1 - edge) * soft)) * 180 / kPi;
+      light.fullAngle = math::acos(std::min(1.0, edge + (1 - edge) * soft)) * 180 / kPi;
     else if (sharp_)
       light.fullAngle = light.angle;
   }

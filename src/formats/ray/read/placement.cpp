@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "formats/ray/read/fields.h"
+#include "math/elementary.h"
 
 namespace trace::rayfile {
 namespace {
@@ -70,7 +71,7 @@ std::optional<Item> wrongForm(Findings& findings, const Item& call, const Transf
 std::optional<Affine> rotation(Findings& findings, std::span<const Item> items) {
   Real n[4];
   if (!numbers(items, n)) return {};
-  const Real length = std::hypot(n[0], n[1], n[2]);
+  const Real length = math::hypot(n[0], n[1], n[2]);
   if (!(length > 0 && std::isfinite(length))) {
     findings.error(items[0], "rotate: expected an axis, found one of length " + toText(length));
     return Affine{};
@@ -107,7 +108,7 @@ std::optional<Affine> transformOf(std::string_view name, std::span<const Real> n
   if (name == "scale" && n.size() == 1) return Affine::scaling({n[0], n[0], n[0]});
   if (name == "scale" && n.size() == 3) return Affine::scaling({n[0], n[1], n[2]});
   if (name == "rotate" && n.size() == 4) {
-    const Real length = std::hypot(n[0], n[1], n[2]);
+    const Real length = math::hypot(n[0], n[1], n[2]);
     if (!(length > 0 && std::isfinite(length))) return {};
     return Affine::rotation(Vec3{n[0], n[1], n[2]} / length, degrees ? n[3] * (kPi / 180) : n[3]);
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "formats/ray/read/fields.h"
+#include "math/elementary.h"
 #include "shading/textures/marble.h"
 
 namespace trace::rayfile {
@@ -42,7 +43,7 @@ Marble asMarble(const StudentMarble& said) {
   marble.grain = said.scale;
   marble.frequency = said.frequency / (2 * kPi);
   Real squares = 0;  // a fractal sum is made as strong as one octave
-  for (int i = 0; i < marble.octaves; ++i) squares += std::pow(0.25, i);
+  for (int i = 0; i < marble.octaves; ++i) squares += math::pow(0.25, i);
   marble.turbulence = marble.frequency * said.contrast * std::sqrt(squares);
   const Real dark = 2 * said.lightness - 1;
   marble.a = said.color;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "formats/ray/read/fields.h"
+#include "math/elementary.h"
 
 namespace trace::rayfile {
 namespace {
@@ -85,7 +86,7 @@ std::vector<Real> axisAndAngle(const Affine& turn) {
   }
   const Real most = largest(axis);
   if (!(most > 0)) return {0, 0, 1, 0};
-  std::vector<Real> result{axis.x / most, axis.y / most, axis.z / most, std::atan2(sine, cosine)};
+  std::vector<Real> result{axis.x / most, axis.y / most, axis.z / most, math::atan2(sine, cosine)};
   dropNoise(result, 0, 3);
   return result;
 }
@@ -312,7 +313,7 @@ Affine affineOf(const Step& step) {
     case Form::scale:
       return n.size() == 1 ? Affine::scaling({n[0], n[0], n[0]}) : Affine::scaling({n[0], n[1], n[2]});
     case Form::rotate: {
-      const Real length = std::hypot(n[0], n[1], n[2]);
+      const Real length = math::hypot(n[0], n[1], n[2]);
       return Affine::rotation(Vec3{n[0], n[1], n[2]} / length, n[3]);
     }
     case Form::matrix: {

@@ -4,6 +4,7 @@
 
 #include "accel/bvh.h"
 #include "geometry/solve/interval_search.h"
+#include "math/elementary.h"
 
 namespace trace {
 
@@ -123,10 +124,10 @@ void TracedJulia::findLimits() {
   set_.escapes[n] = set_.stays[n] = kEscaped;
   for (int i = n; i-- > 0;) {
     const Real next = set_.escapes[i + 1] + set_.mostConstant;
-    set_.escapes[i] = (shape_.iteration == Iteration::cube ? std::cbrt(next) : std::sqrt(next)) * kRounding;
+    set_.escapes[i] = (shape_.iteration == Iteration::cube ? math::cbrt(next) : std::sqrt(next)) * kRounding;
     const Real left = max(set_.stays[i + 1] - set_.mostConstant, 0) /
                       (shape_.iteration == Iteration::hypercomplex ? julia::kStretch : 1);
-    set_.stays[i] = (shape_.iteration == Iteration::cube ? std::cbrt(left) : std::sqrt(left)) / kRounding;
+    set_.stays[i] = (shape_.iteration == Iteration::cube ? math::cbrt(left) : std::sqrt(left)) / kRounding;
   }
   const Real all = (shape_.mandelbrot ? widest + c : set_.escapes[0]) * (1 + std::ldexp(1.0, -30));
   reach_ = set_.reach = std::sqrt(max(all * all - dot(shift_, shift_), 0));
@@ -140,11 +141,14 @@ TracedJulia::Number TracedJulia::step(const Number& q) const {
   switch (shape_.iteration) {
     case Iteration::sine: {
       const Polar p = polar(q);
-      return composed(std::sin(p.a) * std::cosh(p.b), p.n * (std::cos(p.a) * std::sinh(p.b)));
+      const auto [s, c] = math::sincos(p.a);
+      return composed(s * math::cosh(p.b), p.n * (c * math::sinh(p.b)));
     }
     case Iteration::exponential: {
       const Polar p = polar(q);
-      return composed(std::exp(p.a) * std::cos(p.b), p.n * (std::exp(p.a) * std::sin(p.b)));
+      const auto [s, c] = math::sincos(p.b);
+      const Real size = math::exp(p.a);
+      return composed(size * c, p.n * (size * s));
     }
     default:
       return withPower(shape_.iteration, [&]<Iteration kIteration>() {
@@ -157,12 +161,14 @@ TracedJulia::Number TracedJulia::stepSlope(const Number& q, const Number& d) con
   switch (shape_.iteration) {
     case Iteration::sine: {
       const Polar p = polar(q);
-      const Real c = std::cos(p.a), s = std::sin(p.a), ch = std::cosh(p.b), sh = std::sinh(p.b);
+      const auto [s, c] = math::sincos(p.a);
+      const Real ch = math::cosh(p.b), sh = math::sinh(p.b);
       return functionSlope(p, c * sh, c * ch, -s * sh, d);
     }
     case Iteration::exponential: {
       const Polar p = polar(q);
-      const Real a = std::exp(p.a) * std::cos(p.b), b = std::exp(p.a) * std::sin(p.b);
+      const auto [s, c] = math::sincos(p.b);
+      const Real a = math::exp(p.a) * c, b = math::exp(p.a) * s;
       return functionSlope(p, b, a, b, d);
     }
     default:
@@ -192,8 +198,8 @@ Real TracedJulia::escapeSlope(const Number& q, const Number& change) const {
 Real TracedJulia::stretch(const Number& q, Real r) const {
   const Real s = size(q) + r;
   switch (shape_.iteration) {
-    case Iteration::sine: return std::cosh(polar(q).b + r);
-    case Iteration::exponential: return std::exp(q[0] + r);
+    case Iteration::sine: return math::cosh(polar(q).b + r);
+    case Iteration::exponential: return math::exp(q[0] + r);
     default:
       return withPower(shape_.iteration,
                        [&]<Iteration kIteration>() { return julia::stretch<kIteration>(s); });

@@ -4,16 +4,10 @@
 #include <cmath>
 
 #include "geometry/solve/escape_search.h"
+#include "math/complex.h"
 
 namespace trace {
 namespace {
-
-struct Complex {
-  Real re, im;
-};
-Complex operator*(const Complex& a, const Complex& b) {
-  return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
-}
 
 /// base^n by squaring.
 template <class T>
@@ -54,10 +48,10 @@ MandelbulbStep::MandelbulbStep(const Mandelbulb& shape) : shape_(shape) {
   shape_.power = std::clamp(shape.power, 2, 16);
   shape_.iterations = std::clamp(shape.iterations, 1, 30);
   // From here on |w^p + c| >= |w| (|w|^(p-1) - 1) > |w|.
-  radius_ = max(std::pow(2.0, 1.0 / (shape_.power - 1)), shape.julia ? length(shape.constant) : 0);
+  radius_ = max(math::pow(2.0, 1.0 / (shape_.power - 1)), shape.julia ? length(shape.constant) : 0);
   // Neighbours part by `power` at each step at least where the surface is smooth: a low power shows detail
   // late.
-  surely_ = std::max(6, static_cast<int>(14 / std::log2(shape_.power)));
+  surely_ = std::max(6, static_cast<int>(14 / math::log2(shape_.power)));
 }
 
 Vec3 MandelbulbStep::value(const Vec3& w) const {

@@ -4,6 +4,7 @@
 
 #include "base/budget.h"
 #include "base/error.h"
+#include "math/elementary.h"
 #include "math/noise.h"
 #include "math/transform.h"
 
@@ -67,7 +68,7 @@ struct Turtle {
 
   /// Turns a towards b.
   static void turn(Vec3& a, Vec3& b, Real angle) {
-    const Real c = std::cos(angle), s = std::sin(angle);
+    const Real c = math::cos(angle), s = math::sin(angle);
     const Vec3 turned = a * c + b * s;
     b = normalize(b * c - a * s);
     a = normalize(turned);

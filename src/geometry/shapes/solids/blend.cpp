@@ -16,6 +16,7 @@
 #include "geometry/shapes/solids/torus.h"
 #include "geometry/shapes/surfaces/sphere_sweep.h"
 #include "geometry/solve/interval_search.h"
+#include "math/elementary.h"
 #include "math/perpendicular.h"
 
 namespace trace {
@@ -95,7 +96,7 @@ Forms formsOf(const Shape& shape) {
 }
 
 /// By how much lengths of the part grow in the whole, on the average of all directions.
-Real scaleOf(const Affine& wholeFromPart) { return std::cbrt(std::abs(determinant(wholeFromPart))); }
+Real scaleOf(const Affine& wholeFromPart) { return math::cbrt(std::abs(determinant(wholeFromPart))); }
 
 /// How near one of two values must be where what they become is as near as `near`; see smoothLesser().
 Real nearestOf(CsgOperation operation, Real radius, Real near) {

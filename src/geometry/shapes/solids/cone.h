@@ -12,6 +12,7 @@
 #include "base/field.h"
 #include "geometry/ray.h"
 #include "math/box.h"
+#include "math/elementary.h"
 #include "math/roots.h"
 
 namespace trace {
@@ -80,7 +81,7 @@ struct Frustum {
       n = {0, 0, crossing.part == bottom ? -1.0 : 1.0};
     } else {
       p.z = std::clamp(p.z, 0.0, h);
-      const Real r = radius(p.z), was = std::hypot(p.x, p.y);
+      const Real r = radius(p.z), was = math::hypot(p.x, p.y);
       if (was > 0) {
         p.x *= r / was;
         p.y *= r / was;
@@ -91,8 +92,8 @@ struct Frustum {
     if (!capped && dot(n, ray.direction) > 0) n = -n;
     // On the ends v continues from the rim to the middle, back to where it came from.
     Real v = p.z / h;
-    if (crossing.part == bottom) v = 1 - min(1, std::hypot(p.x, p.y) / r0);
-    if (crossing.part == top) v = min(1, std::hypot(p.x, p.y) / r1);
+    if (crossing.part == bottom) v = 1 - min(1, math::hypot(p.x, p.y) / r0);
+    if (crossing.part == top) v = min(1, math::hypot(p.x, p.y) / r1);
     return {p, Vec3{extent, extent, extent} * gammaError(10), n, n, SurfaceUv::around(p, v)};
   }
 

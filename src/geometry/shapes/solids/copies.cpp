@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "geometry/placement.h"
 #include "geometry/solve/span.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -51,7 +52,7 @@ std::shared_ptr<const TracedCopies> Ifs::prepared() const {
       longest = std::sqrt(dot(square.row[0], square.row[0]) + dot(square.row[1], square.row[1]) +
                           dot(square.row[2], square.row[2]));
       if (!(longest > 0) || !std::isfinite(longest)) break;
-      scale *= std::pow(longest, power);
+      scale *= math::pow(longest, power);
       for (Vec3& row : square.row) row = row / longest;
       square = square * square;
       power *= 0.5;

@@ -7,6 +7,7 @@
 #include "base/field.h"
 #include "geometry/ray.h"
 #include "math/box.h"
+#include "math/elementary.h"
 
 namespace trace {
 
@@ -44,7 +45,7 @@ struct Disk {
     p.z = 0;
     const Real error = std::abs(radius) * gammaError(4);
     const Vec3 n{0, 0, ray.direction.z > 0 ? -1.0 : 1.0};
-    const Real outward = std::min(1.0, std::hypot(p.x, p.y) / std::abs(radius));
+    const Real outward = std::min(1.0, math::hypot(p.x, p.y) / std::abs(radius));
     return {p, {error, error, error}, n, n, SurfaceUv::around(p, outward)};
   }
 };

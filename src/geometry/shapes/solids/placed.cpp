@@ -19,7 +19,9 @@ void meshCrossings(const MeshTree& mesh, const Ray& ray, const VisitCrossing& vi
       return false;
     };
     mesh.crossings({ray.origin, ray.direction * side}, kInfinity, add, MeshCounts{nodes, triangles});
-    std::sort(met.begin(), met.end(), [](const Crossing& a, const Crossing& b) { return a.part < b.part; });
+    std::sort(met.begin(), met.end(), [](const Crossing& a, const Crossing& b) {
+      return a.part != b.part ? a.part < b.part : a.t < b.t;
+    });
     for (std::size_t i = 0; i < met.size(); ++i)
       if (i == 0 || met[i].part != met[i - 1].part) visit(met[i]);
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/solve/span.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -27,7 +28,7 @@ Real norm2(Real a, Real b, Real p, Real& byA, Real& byB) {
     return l;
   }
   // With w = (least / most)^p the norm is most (1 + w)^(1/p), and its slopes are powers of the same.
-  const Real least = min(a, b), w = std::pow(least / most, p), root = std::pow(1 + w, 1 / p);
+  const Real least = min(a, b), w = math::pow(least / most, p), root = math::pow(1 + w, 1 / p);
   const Real byMost = root / (1 + w), byLeast = least > 0 ? w * (most / least) * byMost : 0;
   byA = a < b ? byLeast : byMost;
   byB = a < b ? byMost : byLeast;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/solve/interval_search.h"
+#include "math/elementary.h"
 #include "math/expression.h"
 
 namespace trace {
@@ -16,12 +17,12 @@ Real norm(Real a, Real b, Real p) {
   if (most == 0) return 0;
   if (p == 1) return a + b;
   if (p == 2) return std::sqrt(a * a + b * b);
-  return most * std::pow(1 + std::pow(least / most, p), 1 / p);
+  return most * math::pow(1 + math::pow(least / most, p), 1 / p);
 }
 /// How the norm changes with a: (a / norm)^(p - 1).
 Real powerSlope(Real a, Real b, Real p) {
   const Real l = norm(a, b, p);
-  return p == 1 ? 1 : l > 0 ? std::pow(a / l, p - 1) : 0;
+  return p == 1 ? 1 : l > 0 ? math::pow(a / l, p - 1) : 0;
 }
 
 Along<Real> norm(const Along<Real>& a, const Along<Real>& b, Real p) {
@@ -85,7 +86,7 @@ SurfacePoint Supertoroid::surface(const Ray& ray, const Crossing& crossing) cons
   const Real l = length(gradient);
   const Vec3 n = l > 0 ? gradient / l : normalize(-ray.direction);
   const Real error = (R + r) * gammaError(120);
-  const Real v = 0.5 + std::atan2(at.z, out) / (2 * kPi);
+  const Real v = 0.5 + math::atan2(at.z, out) / (2 * kPi);
   return {s, {error, error, error}, n, n, SurfaceUv::around(at, v)};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/solve/span.h"
+#include "math/elementary.h"
 
 namespace trace {
 
@@ -51,7 +52,7 @@ SurfacePoint Torus::surface(const Ray& ray, const Crossing& crossing) const {
   const Vec3 middle = around * R;
   const Vec3 n = normalize(p - middle);
   const Real error = (R + r) * gammaError(16);
-  const Real v = 0.5 + std::atan2(p.z, rho - R) / (2 * kPi);
+  const Real v = 0.5 + math::atan2(p.z, rho - R) / (2 * kPi);
   return {middle + n * r, {error, error, error}, n, n, SurfaceUv::around(p, v)};
 }
 

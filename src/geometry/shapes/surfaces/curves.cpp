@@ -5,6 +5,7 @@
 #include "base/budget.h"
 #include "base/error.h"
 #include "geometry/solve/span.h"
+#include "math/elementary.h"
 #include "math/perpendicular.h"
 #include "math/roots.h"
 
@@ -364,7 +365,7 @@ SurfacePoint TracedCurves::onTube(const Vec3& p, const Vec3& along, const Cubic<
   if (!isFinite(n)) n = -along;
   const Vec3 tangent = normalize(curveSlope(curve, u));
   const Vec3 side = isFinite(tangent) ? perpendicularTo(tangent) : Vec3{1, 0, 0};
-  const Real angle = std::atan2(dot(n, cross(tangent, side)), dot(n, side));
+  const Real angle = math::atan2(dot(n, cross(tangent, side)), dot(n, side));
   const Real around = std::isfinite(angle) ? 0.5 + angle / (2 * kPi) : 0.5;
   return {c + n * std::abs(curve.at(3, u)), {error_, error_, error_}, n, n, {0, around}};
 }

@@ -9,6 +9,7 @@
 #include "geometry/shapes/solids/csg_tree.h"
 #include "geometry/shapes/solids/placed.h"
 #include "geometry/solve/span.h"
+#include "math/elementary.h"
 #include "math/noise.h"
 #include "math/perpendicular.h"
 
@@ -26,7 +27,7 @@ class StrandChance {
   }
   Vec3 direction() {
     const Real z = between(-1, 1), phi = between(0, 2 * kPi), r = std::sqrt(max(0, 1 - z * z));
-    return {r * std::cos(phi), r * std::sin(phi), z};
+    return {r * math::cos(phi), r * math::sin(phi), z};
   }
 
  private:
@@ -131,7 +132,7 @@ class FurGrower {
       const Real radius = 0.5 * trace::length(object.bounds().size());
       const Vec3 d = chance.direction(), x = perpendicularTo(d), y = cross(d, x);
       const Real r = radius * std::sqrt(chance.between(0, 1)), phi = chance.between(0, 2 * kPi);
-      const Vec3 across = x * (r * std::cos(phi)) + y * (r * std::sin(phi));
+      const Vec3 across = x * (r * math::cos(phi)) + y * (r * math::sin(phi));
       addRoots(object, {object.bounds().center() + across - d * (2 * radius), d}, wanted);
     }
   }
@@ -140,7 +141,7 @@ class FurGrower {
     std::vector<Crossing> met;
     const auto note = [&](const Crossing& c) { met.push_back(c); };
     object.crossings(ray, note);
-    std::sort(met.begin(), met.end(), [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+    std::sort(met.begin(), met.end(), [](const Crossing& a, const Crossing& b) { return a.before(b); });
     for (const Crossing& c : met) {
       if (roots_.size() == wanted) return;
       if (!std::isfinite(c.t)) continue;
@@ -222,7 +223,8 @@ class FurGrower {
       const Vec3 along = heading(straight[i] - straight[i - 1], {0, 0, 1});
       side = heading(side - along * dot(side, along), perpendicularTo(along));
       const Real share = static_cast<Real>(i) / steps_, angle = begin + 2 * kPi * fur_.curl * share;
-      path[i] += (side * std::cos(angle) + cross(along, side) * std::sin(angle)) * (fur_.curlRadius * share);
+      path[i] +=
+          (side * math::cos(angle) + cross(along, side) * math::sin(angle)) * (fur_.curlRadius * share);
     }
   }
 

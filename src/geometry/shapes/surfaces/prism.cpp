@@ -4,6 +4,7 @@
 
 #include "base/small_list.h"
 #include "geometry/solve/interval_search.h"
+#include "math/elementary.h"
 #include "math/expression.h"
 
 namespace trace {
@@ -22,10 +23,10 @@ Real mostCurvature(const Cubic<2>& curve) {
       {x[1], y[1]}, {x[1] + x[2], y[1] + y[2]}, {x[1] + 2 * x[2] + 3 * x[3], y[1] + 2 * y[2] + 3 * y[3]}};
   const Vector second[] = {{2 * x[2], 2 * y[2]}, {2 * x[2] + 6 * x[3], 2 * y[2] + 6 * y[3]}};
   const Vector along{first[0][0] + first[1][0] + first[2][0], first[0][1] + first[1][1] + first[2][1]};
-  const Real l = std::hypot(along[0], along[1]);
+  const Real l = math::hypot(along[0], along[1]);
   Real slowest = kInfinity, bend = 0;
   for (const Vector& v : first) slowest = min(slowest, (v[0] * along[0] + v[1] * along[1]) / l);
-  for (const Vector& v : second) bend = max(bend, std::hypot(v[0], v[1]));
+  for (const Vector& v : second) bend = max(bend, math::hypot(v[0], v[1]));
   if (bend == 0) return 0;
   return slowest > 0 ? bend / (slowest * slowest) : kInfinity;
 }
@@ -72,7 +73,7 @@ TracedPrism::TracedPrism(const Prism& shape) : height_(std::abs(shape.height)) {
     // Just to the right of the middle of an arc: inside there, outside is to the left.
     const Cubic<2>& c = arcs_[first].curve;
     const Real dx = c.slope(0, 0.5), dy = c.slope(1, 0.5);
-    const Real step = std::ldexp(std::sqrt(std::abs(area)), -20) / std::hypot(dx, dy);
+    const Real step = std::ldexp(std::sqrt(std::abs(area)), -20) / math::hypot(dx, dy);
     const bool insideRight = inside({c.at(0, 0.5) + dy * step, c.at(1, 0.5) - dx * step});
     for (std::size_t i = first; i <= last; ++i) arcs_[i].outward = insideRight ? -1 : 1;
     first = last + 1;
@@ -129,7 +130,8 @@ bool TracedPrism::inside(const std::array<Real, 2>& p) const {
 }
 
 std::array<Real, 2> TracedPrism::unfolded(const Vec3& p) const {
-  const Real c = std::cos(turn_ * p.z), s = std::sin(turn_ * p.z), scale = scaleAt(p.z);
+  const auto [s, c] = math::sincos(turn_ * p.z);
+  const Real scale = scaleAt(p.z);
   return {(c * p.x + s * p.y) / scale, (c * p.y - s * p.x) / scale};
 }
 
@@ -230,7 +232,7 @@ class TracedPrism::Twisted {
   Real approach(const Nearest& near, const std::array<Real, 2>& p, Real t) const {
     const Vec3 at = ray_.at(t);
     const Vec3& d = ray_.direction;
-    const Real c = std::cos(prism_.turn_ * at.z), s = std::sin(prism_.turn_ * at.z);
+    const auto [s, c] = math::sincos(prism_.turn_ * at.z);
     const Real scale = prism_.scaleAt(at.z), shrink = shrink_ / scale;
     const Real vx = (c * d.x + s * d.y) / scale + turn_ * p[1] - shrink * p[0];
     const Real vy = (c * d.y - s * d.x) / scale - turn_ * p[0] - shrink * p[1];
@@ -308,11 +310,11 @@ void TracedPrism::crossings(const Ray& ray, const Range& range, VisitCrossing vi
   // From the height of the tip, where the ray is infinitely far from the outline, outward.
   std::span<Crossing> sides = list.all();
   if (b.z < 0) {
-    std::sort(sides.begin(), sides.end(), [](const Crossing& p, const Crossing& q) { return p.t > q.t; });
+    std::sort(sides.begin(), sides.end(), [](const Crossing& p, const Crossing& q) { return q.before(p); });
     for (std::size_t i = 0; i < sides.size(); i += 2)
       within(i + 1 < sides.size() ? sides[i + 1] : Crossing{-kInfinity, 0}, sides[i]);
   } else {
-    std::sort(sides.begin(), sides.end(), [](const Crossing& p, const Crossing& q) { return p.t < q.t; });
+    std::sort(sides.begin(), sides.end(), [](const Crossing& p, const Crossing& q) { return p.before(q); });
     for (std::size_t i = 0; i < sides.size(); i += 2)
       within(sides[i], i + 1 < sides.size() ? sides[i + 1] : Crossing{kInfinity, 0});
   }
@@ -326,7 +328,7 @@ SurfacePoint TracedPrism::twistedSide(const Vec3& place) const {
   const Real u = near.u, x = arc.curve.at(0, u), y = arc.curve.at(1, u);
   const Real dx = arc.curve.slope(0, u) * arc.outward, dy = arc.curve.slope(1, u) * arc.outward;
   // The normal of the outline, turned up with it, and tilted as turning and scaling tilt it.
-  const Real c = std::cos(turn_ * z), q = std::sin(turn_ * z);
+  const auto [q, c] = math::sincos(turn_ * z);
   const Real tilt = turn_ * s * (dy * y + dx * x) - slope_ * (dy * x - dx * y);
   Vec3 n = normalize(Vec3{c * dy + q * dx, q * dy - c * dx, tilt});
   if (!isFinite(n)) n = {0, 0, 1};

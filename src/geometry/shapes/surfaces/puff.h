@@ -13,6 +13,7 @@
 #include "base/field.h"
 #include "geometry/materials.h"
 #include "geometry/shapes/solids/sphere.h"
+#include "math/elementary.h"
 
 namespace trace {
 
@@ -70,7 +71,7 @@ struct Puff {
       return s * (h2 - s * s / 3);
     };  // coefficients of the density, from the nearest place
     const Real passed = before(h) - before(leaving ? std::clamp(middle, -h, h) : -h);
-    const Real share = 1 - std::exp(-std::abs(depth) * 0.75 * passed);
+    const Real share = 1 - math::exp(-std::abs(depth) * 0.75 * passed);
     return std::llround(std::clamp(share, 0.0, 1.0) * static_cast<Real>(kLevels - 1));
   }
 };

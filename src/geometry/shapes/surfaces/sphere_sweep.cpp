@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/small_list.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -170,7 +171,7 @@ void TracedSweep::crossings(const Ray& ray, VisitCrossing visit) const {
     }
   });
   std::span<Reach> all = found.all();
-  std::sort(all.begin(), all.end(), [](const Reach& a, const Reach& b) { return a.in.t < b.in.t; });
+  std::sort(all.begin(), all.end(), [](const Reach& a, const Reach& b) { return a.in.before(b.in); });
   for (std::size_t i = 0; i < all.size();) {
     Crossing out = all[i].out;
     std::size_t next = i + 1;
@@ -205,7 +206,7 @@ SurfacePoint TracedSweep::surface(const Ray& ray, const Crossing& crossing) cons
   const Vec3 c = arc.at(u), v = p - c, n = normalize(v);
   const Vec3 slope = arc.slope(u);
   const Vec3 side = perpendicular(slope, arc.across);
-  const Real angle = std::atan2(dot(n, cross(slope, side)) / max(length(slope), 1e-300), dot(n, side));
+  const Real angle = math::atan2(dot(n, cross(slope, side)) / max(length(slope), 1e-300), dot(n, side));
   const Real path = (static_cast<Real>(number) + u) / static_cast<Real>(arcs_.size());
   return {c + n * arc.radius(u), {error_, error_, error_}, n, n, {path, 0.5 + angle / (2 * kPi)}};
 }

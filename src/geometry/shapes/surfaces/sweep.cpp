@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/small_list.h"
 #include "base/text.h"
+#include "math/elementary.h"
 
 namespace trace {
 namespace {
@@ -96,7 +97,7 @@ std::size_t Path::stationsOf(const PathArc& arc) const {
   for (std::size_t i = 0; i < kSamples; ++i) {
     const Vec3 a = directionOf(arc, static_cast<Real>(i) / kSamples);
     const Vec3 b = directionOf(arc, static_cast<Real>(i + 1) / kSamples);
-    turned.push_back(turned.back() + std::atan2(length(cross(a, b)), dot(a, b)));
+    turned.push_back(turned.back() + math::atan2(length(cross(a, b)), dot(a, b)));
   }
   std::size_t count = 2;
   for (; count < kMost; count *= 2) {
@@ -112,8 +113,8 @@ Section Path::sectionAt(const PathArc& arc, Real u, const Frame& frame, Real tur
   const Vec3 slope = slopeOf(arc, u), bend = bendOf(arc, u);
   const Real speed = length(slope), scale = arc.at(3, u), growth = arc.slope(3, u);
   const Vec3 turning = speed > 0 ? (bend - frame.along * dot(bend, frame.along)) / speed : Vec3{};
-  const Vec3 x = frame.x * std::cos(turn) + frame.y * std::sin(turn);
-  const Vec3 y = frame.y * std::cos(turn) - frame.x * std::sin(turn);
+  const Vec3 x = frame.x * math::cos(turn) + frame.y * math::sin(turn);
+  const Vec3 y = frame.y * math::cos(turn) - frame.x * math::sin(turn);
   const Vec3 xTurn = y * turn_ - frame.along * dot(x, turning),
              yTurn = x * -turn_ - frame.along * dot(y, turning);
   return {placeOn(arc, u), x * scale, y * scale, (x * growth + xTurn * scale) * piece,
@@ -168,7 +169,7 @@ Path::Path(const Sweep& shape, std::vector<PathArc> arcs) : arcs_(std::move(arcs
   Real missing = 0;
   if (closed) {
     const Frame met = carried(frame, {}, first.along);
-    missing = std::atan2(dot(cross(first.x, met.x), first.along), dot(first.x, met.x));
+    missing = math::atan2(dot(cross(first.x, met.x), first.along), dot(first.x, met.x));
     turn_ += missing / count;  // x turns against the clock around the path
   }
 
@@ -328,7 +329,7 @@ void TracedProfileSweep::crossings(const Ray& ray, VisitCrossing visit) const {
     return;
   }
   std::sort(events.begin(), events.end(),
-            [](const Event& a, const Event& b) { return a.crossing.t < b.crossing.t; });
+            [](const Event& a, const Event& b) { return a.crossing.before(b.crossing); });
   // A point on the common edge of patches may be hit in each.
   const auto same = [&](const Event& a, const Event& b) {
     if (!(a.onEdge && b.onEdge && a.entering == b.entering)) return false;
