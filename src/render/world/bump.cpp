@@ -132,7 +132,8 @@ Vec3 World::bentNormal(const Ray& ray, const Hit& hit, Bent what) const {
       return Vec2{uv.x + dot(by.u, across) * step, uv.y + dot(by.v, across) * step};
     };
     TexturePlace there = here;
-    there.point += tangent * step;
+    there.point +=
+        instance.patternsInWorld ? linear(worldFromObject(hit.object), tangent) * step : tangent * step;
     there.uv = moved(here.uv, along);
     there.secondUv = moved(here.secondUv, second);
     gradient += tangent * ((heights.at(there) - height) / step);
