@@ -58,10 +58,11 @@ TEST(PatternSpace, BoxesShareOneBlockOfStone) {
       0.1);
 }
 
-TEST(PatternSpace, PlacementsOfAGroupDoSo) {
+// Also in the space of the object: bumps of placed objects were those of another object.
+void expectPlacementsLikeCopies(PatternSpace space) {
   for (const Real bump : {0.0, 0.1}) {
     const Affine turned = Affine::rotation({0, 0, 1}, 0.2);
-    Scene copies = wallOf({turned * at(-0.5), turned * at(0.5)}, PatternSpace::world, bump);
+    Scene copies = wallOf({turned * at(-0.5), turned * at(0.5)}, space, bump);
     Scene placed = copies;
     placed.objects.clear();
     placed.groups.push_back({"box", {}, {{"", Cube{}, at(0.5), 0, {}}}, {}});
@@ -71,6 +72,11 @@ TEST(PatternSpace, PlacementsOfAGroupDoSo) {
     placed.uses.push_back({0, list});
     EXPECT_EQ(different(pictureOf(placed), pictureOf(copies)), 0) << bump;
   }
+}
+
+TEST(PatternSpace, PlacementsOfAGroupAreLikeCopies) {
+  expectPlacementsLikeCopies(PatternSpace::world);
+  expectPlacementsLikeCopies(PatternSpace::object);
 }
 
 }  // namespace
