@@ -1175,6 +1175,16 @@ const std::array kOptions{
          .source = "IEC 61966-2-1; docs/tone.md",
          .repeats = Repeats::tone,
          .extra = true}),
+    row<&Settings::workingGamma>(
+        {.name = "working-gamma",
+         .group = "Tone",
+         .help = "exponent that makes linear light of the values, before the transfer; 2.2 for scenes whose "
+                 "colours are those of a screen",
+         .source = "assumed_gamma of POV-Ray 3.7",
+         .repeats = Repeats::tone,
+         .least = 0.1,
+         .most = 10,
+         .extra = true}),
     row<&Settings::bloom>({.name = "bloom",
                            .group = "Tone",
                            .help = "fraction of the light that lens and eye scatter around bright points",

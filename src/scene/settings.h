@@ -214,6 +214,7 @@ struct Settings {
   bool autoExposure = false;
   Real whiteBalance = 0;
   Transfer transfer = Transfer::linear;
+  Real workingGamma = 1;
   Real bloom = 0;
   bool dither = false;
   // Passes
@@ -255,7 +256,7 @@ inline Optics opticsOf(const Settings& s) {
 }
 
 inline Development developmentOf(const Settings& s) {
-  return {s.bloom, s.exposure, s.whiteBalance, s.tone, s.transfer, s.dither};
+  return {s.bloom, s.exposure, s.whiteBalance, s.tone, s.workingGamma, s.transfer, s.dither};
 }
 
 /// The luminance that shows as white.

@@ -47,7 +47,7 @@ struct BsdfRowOf {
 class Bsdf {
  public:
   /// The largest of a model that fits.
-  static constexpr std::size_t kMostBytes = 1216;
+  static constexpr std::size_t kMostBytes = 1240;
 
   Bsdf() : Bsdf(PhongBsdf()) {}
   template <std::derived_from<WhittedTerms> Model>

@@ -59,6 +59,10 @@ class MaterialModel : public Listed<ModelType, ModelField> {
 enum class ShadedSides { front, both };
 constexpr std::array<std::string_view, 2> names(ShadedSides) { return {"front", "both"}; }
 
+/// The space that the patterns of a material lie in: with that of the object they move along.
+enum class PatternSpace { object, world };
+constexpr std::array<std::string_view, 2> names(PatternSpace) { return {"object", "world"}; }
+
 struct Material {
   static constexpr std::string_view kKeyword = "material";
 
@@ -68,7 +72,8 @@ struct Material {
   Real bump = 0;                         ///< its texture bends the normal for shading
   Real opacity = 1;                      ///< share of the surface that is there
   ShadedSides sides = ShadedSides::front;
-  bool castsShadow = true;     ///< off: light sampling passes it (render/rays/tracer.h)
+  bool castsShadow = true;  ///< off: light sampling passes it (render/rays/tracer.h)
+  PatternSpace patternSpace = PatternSpace::object;
   Real displacement = 0;       ///< moves the points of meshes (scene/displacement.h)
   int displacementLevels = 0;  ///< / number of times each triangle is cut in four before
   // The medium inside (shading/medium.h).
@@ -86,6 +91,8 @@ struct Material {
                         "which sides of an opaque surface reflect light"},
                   Field{"casts_shadow", &Material::castsShadow, "", -kNoLimit, kNoLimit,
                         "off: rays to lights pass as if nothing were there"},
+                  Field{"pattern_space", &Material::patternSpace, "", -kNoLimit, kNoLimit,
+                        "object: patterns move with the object; world: objects share one block of stone"},
                   Field{"displacement", &Material::displacement, "units of the object", -kNoLimit, kNoLimit,
                         "how far the points of a mesh move along their normals; a texture of heights "
                         "scales it"},

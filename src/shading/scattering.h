@@ -48,6 +48,7 @@ enum class Passage { asSaid, byFresnel, straight };
 struct WhittedTerms {
   Color emissive, ambient;
   Color reflective, transmissive;  ///< weights of the mirrored, along the normal, and of the refracted ray
+  Color grazing;                   ///< what the mirrored ray gains at grazing angles
   Real index = 1;                  ///< index of refraction
   Real shadow = 1;                 ///< share of a light that a shadow takes away
   Real priority = 0;               ///< what of overlapping bodies fills a place (shading/interior.h)
@@ -63,7 +64,7 @@ struct WhittedTerms {
     dispersion = {interior.dispersion, interior.abbe, said};
   }
   bool transmits() const { return !isBlack(transmissive); }
-  bool mirrors() const { return !isBlack(reflective); }
+  bool mirrors() const { return !isBlack(reflective) || !isBlack(grazing); }
   bool encloses(bool solid) const { return solid && passage != Passage::straight; }
 };
 

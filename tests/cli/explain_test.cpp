@@ -56,8 +56,27 @@ TEST_F(Explain, NamesTheCallsThatMadeAnObject) {
   };
   const std::string one = of("poles.ray");
   EXPECT_NE(one.find("made in pole(high = 2) at poles.ray:4:38, in i = 1 at poles.ray:4:1"), one.npos) << one;
+  std::vector<std::string> words{"explain", "poles.ray", "--format", "json"};
+  words.insert(words.end(), pixel.begin(), pixel.end());
+  EXPECT_EQ(nlohmann::json::parse(out(words)).at("made"),
+            "in pole(high = 2) at poles.ray:4:38, in i = 1 at poles.ray:4:1");
   writeFile(folder / "pole.ray", "Trace 1\nlet high = 2\nscale(0.4, high, 0.4) { box { } }\n");
   EXPECT_EQ(of("pole.ray").find("made in"), std::string::npos);
+}
+
+TEST_F(Explain, NamesTheCallsThatPlacedAGroup) {
+  writeFile(folder / "pair.ray",
+            "Trace 1\ncamera { position = (1, 0, 9); look_at = (1, 0, 0); fov = 40 }\n"
+            "define pair() { scale(0.4) { sphere { } } translate(0, 1, 0) { scale(0.2) { sphere { } } } }\n"
+            "for i in 0..2 { translate(i, 0, 0) { pair() } }\n");
+  for (const auto& [pixel, calls] :
+       {std::pair{"20,15", "in i = 1 at pair.ray:4:1"}, std::pair{"25,15", "in i = 2 at pair.ray:4:1"}}) {
+    const std::string text = out({"explain", "pair.ray", "--pixel", pixel, "-w", "40", "--quality", "draft"});
+    EXPECT_NE(text.find(calls), text.npos) << text;
+    const nlohmann::json json = nlohmann::json::parse(
+        out({"explain", "pair.ray", "--pixel", pixel, "-w", "40", "--quality", "draft", "--format", "json"}));
+    EXPECT_NE(json.at("made").get<std::string>().find(calls), std::string::npos) << json.at("made");
+  }
 }
 
 TEST_F(Explain, TextTellsEveryRayAndThatTheSumIsThePicture) {

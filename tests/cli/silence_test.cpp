@@ -253,6 +253,14 @@ TEST_F(Silence, AMissedNoiseTargetIsToldWithTheSamplesThatReachIt) {
   }
 }
 
+TEST_F(Silence, ANoiseTargetThatBdptMissesIsTold) {
+  write("noisy.ray", kNoisy);
+  const std::string told = run({"noisy.ray", "noisy.png", "-w", "48", "--integrator", "bdpt",
+                                "--noise-target", "0.001", "--spp", "16"})
+                               .err;
+  EXPECT_TRUE(contains(told, "of the pixels miss the noise target of 0.26 levels")) << told;
+}
+
 TEST_F(Silence, TheFireflyLimitCountsTheLightOfTheRegion) {
   const auto taken = [&](const std::string& region) {
     const Run r =

@@ -59,7 +59,7 @@ TEST(RayModels, AreRefusedWithAHint) {
   EXPECT_EQ(errorsOf("sphere { material = { model = lambert; shininess = 5; } }"),
             "2:40: the shading model lambert has no field \"shininess\" [it has name, bump, opacity, "
             "casts_shadow, displacement, "
-            "displacement_levels, pattern_scale, pattern_rotate, pattern_translate, diffuse, "
+            "displacement_levels, pattern_scale, pattern_rotate, pattern_translate, pattern_space, diffuse, "
             "emissive, ambient "
             "and shadow]");
   EXPECT_EQ(

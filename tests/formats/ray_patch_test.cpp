@@ -301,10 +301,10 @@ TEST(RayPatch, AMaterialOutlivesTheObjectThatSaidIt) {
             [](Scene& s) { s.objects.erase(s.objects.begin()); }),
       "box { material = { name = \"red\"; emissive = (0, 0, 0); ambient = (0, 0, 0); diffuse = (1, 0, 0); "
       "specular = (0, 0, 0);\n"
-      "    reflective = (0, 0, 0); transmissive = (0, 0, 0); shininess = 0; index = 1; shadow = 1; priority "
-      "= 0;\n"
-      "    attenuation_color = (1, 1, 1); attenuation_distance = 1; dispersion = abbe; abbe = 0; }; } cone { "
-      "material = red; }");
+      "    reflective = (0, 0, 0); grazing = (0, 0, 0); transmissive = (0, 0, 0); shininess = 0; brilliance "
+      "= 1;\n"
+      "    grazing_exponent = 5; index = 1; shadow = 1; priority = 0; attenuation_color = (1, 1, 1);\n"
+      "    attenuation_distance = 1; dispersion = abbe; abbe = 0; }; } cone { material = red; }");
 }
 
 // --- deleting and adding ----------------------------------------------------------------------------------

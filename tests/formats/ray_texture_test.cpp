@@ -57,6 +57,10 @@ TEST(RayTexture, PatternFieldsMoveAllPatternsOfAMaterial) {
   EXPECT_EQ(texturesOf("diffuse = map(\"a.png\"); pattern_scale = 2"), texturesOf("diffuse = map(\"a.png\")"))
       << "a picture lies in u and v";
   EXPECT_NE(errorsOf("sphere { material = { pattern_scale = big } }"), "");
+  EXPECT_EQ(load("sphere { material = { library = oak; pattern_space = world } }")
+                .scene.materials.back()
+                .patternSpace,
+            PatternSpace::world);
   EXPECT_NE(errorsOfFile("Trace 1\nsphere { material = { pattern_size = 2 } }"), "");
 }
 

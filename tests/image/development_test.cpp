@@ -103,5 +103,17 @@ TEST(Development, OneColourGoesThePicturesWay) {
     EXPECT_EQ(developed(picture.pixels[i], all), result.pixels[i]);
 }
 
+TEST(Development, AWorkingGammaMakesLightOfTheValues) {
+  const Color shown = developed(Color(0.5), Development{.workingGamma = 2.2, .transfer = Transfer::srgb});
+  EXPECT_NEAR(shown.r, srgbOfLinear(std::pow(0.5, 2.2)), 1e-12);
+  EXPECT_EQ(developed(Color(0.5), Development{.workingGamma = 1}).r, 0.5);
+  Picture picture(1, 1);
+  picture.at(0, 0) = Color(0.25, 1, 0);
+  const Picture all = developed(picture, Development{.workingGamma = 1.5});
+  EXPECT_NEAR(all.at(0, 0).r, 0.125, 1e-12);
+  EXPECT_EQ(all.at(0, 0).g, 1);
+  EXPECT_EQ(all.at(0, 0).b, 0);
+}
+
 }  // namespace
 }  // namespace trace

@@ -129,7 +129,8 @@ TEST(Options, ExtrasAreOffByDefault) {
     if (!option.extra) continue;
     const std::string value = option.get({});
     const bool first = option.kind == Option::Kind::choice && value == option.choices.front();
-    const bool one = option.name == "spp" || option.name == "wavelengths" || option.name == "photon-passes";
+    const bool one = option.name == "spp" || option.name == "wavelengths" || option.name == "photon-passes" ||
+                     option.name == "working-gamma";
     const bool all = option.name == "light-vertices" || option.name == "camera-vertices";
     EXPECT_TRUE(value == "off" || value == "none" || value == "0" || first || (one && value == "1") ||
                 (all && value == "-1"))

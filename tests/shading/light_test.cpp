@@ -77,6 +77,20 @@ TEST(Light, WithoutASizeItIsWhereItWas) {
   EXPECT_EQ(light.illuminate({}, {}, {0.1, 0.9})->toLight, light.illuminate({}, {}, {0.7, 0.3})->toLight);
 }
 
+TEST(Light, ASmoothEdgeIsACubicOfTheCosine) {
+  const SpotLight spot{
+      .direction = {0, 0, -1}, .color = Color(1), .angle = 60, .fullAngle = 0, .edge = SpotEdge::smooth};
+  const auto at = [&](Real degrees) {
+    const Real a = degrees * kPi / 180;
+    const auto arriving = spot.illuminate({std::sin(a), 0, -std::cos(a)}, {});
+    return arriving ? arriving->attenuation : 0;
+  };
+  EXPECT_NEAR(at(0), 1, 1e-12);
+  EXPECT_NEAR(at(std::acos(0.75) * 180 / kPi), 0.5, 1e-9) << "half way between the cosines 1 and 0.5";
+  EXPECT_NEAR(at(std::acos(0.625) * 180 / kPi), 0.15625, 1e-9) << "3 t^2 - 2 t^3 of a quarter";
+  EXPECT_NEAR(at(61), 0, 1e-12);
+}
+
 TEST(Light, GeometryIsThatOfTheFields) {
   for (const LightType& type : lightTypes()) {
     SCOPED_TRACE(type.keyword);

@@ -732,5 +732,22 @@ TEST(PrincipledCoat, MirrorsAroundItsOwnNormal) {
   }
 }
 
+TEST(Materials, PhongHasBrillianceAndAMirrorThatGains) {
+  Phong phong;
+  phong.diffuse = Color(0.5);
+  phong.brilliance = 3;
+  phong.reflective = Color(0.1);
+  phong.grazing = Color(0.8);
+  phong.grazingExponent = 2;
+  const PhongBsdf bsdf = phong.at({});
+  const Vec3 normal{0, 0, 1}, light = normalize(Vec3{1, 0, 1});
+  EXPECT_NEAR(bsdf.scatter(normal, light, normal).diffuse.r, 0.5 * std::pow(0.5, 1.5), 1e-12);
+  EXPECT_NEAR(bsdf.mirrorWeight(1).r, 0.1, 1e-12);
+  EXPECT_NEAR(bsdf.mirrorWeight(0.5).r, 0.1 + 0.8 * 0.25, 1e-12);
+  EXPECT_NEAR(bsdf.mirrorWeight(0).r, 0.9, 1e-12);
+  phong.reflective = {};
+  EXPECT_TRUE(phong.at({}).mirrors()) << "at grazing angles";
+}
+
 }  // namespace
 }  // namespace trace

@@ -174,6 +174,42 @@ TEST(Brick, WithoutLengthHasNoJoints) {
 
 // --- solid ----------------------------------------------------------------------------------------------
 
+// The mean and the standard deviation over a plane, as POV-Ray 3.7 has them for its own noise.
+TEST(SolidPatterns, NoiseIsSpreadAsInPovRay) {
+  const auto expectSpread = [](SolidPattern kind, Real mean, Real deviation) {
+    Solid solid;
+    solid.kind = kind;
+    constexpr int kSide = 150;
+    Real sum = 0, squares = 0;
+    for (int i = 0; i < kSide; ++i)
+      for (int j = 0; j < kSide; ++j) {
+        const Real value = solid.pattern(at({i * 0.61, j * 0.61, 0.37}));
+        sum += value;
+        squares += value * value;
+      }
+    sum /= kSide * kSide;
+    EXPECT_NEAR(sum, mean, 0.045);
+    EXPECT_NEAR(std::sqrt(squares / (kSide * kSide) - sum * sum), deviation, 0.015);
+  };
+  expectSpread(SolidPattern::bozo, 0.507, 0.115);
+  expectSpread(SolidPattern::granite, 0.381, 0.154);
+  expectSpread(SolidPattern::wrinkles, 0.513, 0.132);
+  expectSpread(SolidPattern::agate, 0.55, 0.341);
+  expectSpread(SolidPattern::crackle, 0.206, 0.162);
+  expectSpread(SolidPattern::waves, 0.5, 0.122);
+}
+
+TEST(SolidPatterns, NoiseIsNotFlatOnWholeNumbers) {
+  const Solid bozo;
+  Real least = 1, most = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Real value = bozo.pattern(at({static_cast<Real>(i % 10), 0, static_cast<Real>(i / 10)}));
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  EXPECT_GT(most - least, 0.3);
+}
+
 // The numbers are those of POV-Ray 3.7.
 TEST(SolidPatterns, SpiralsAreCones) {
   Solid spiral;

@@ -124,9 +124,9 @@ std::optional<PictureError> estimatedError(const Settings& settings, const Film&
 }
 
 std::string noiseText(const Settings& settings, const Film& film) {
-  if (!hasTrait(settings, Trait::meetsLamps) || film.corners() || film.takesSplats()) return "";
+  if (!hasTrait(settings, Trait::meetsLamps) || film.corners()) return "";
   if (film.noiseTarget() > 0) return missedTargetText(settings, film);
-  if (settings.denoise) return "";
+  if (settings.denoise || film.takesSplats()) return "";
   std::vector<double> errors;
   for (const Color& error : film.errors().pixels)
     if (255 * error.r > kQuiet) errors.push_back(error.r);

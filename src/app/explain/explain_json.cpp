@@ -7,6 +7,7 @@
 #include "app/explain/path_ways.h"
 #include "app/session/json.h"
 #include "base/match.h"
+#include "formats/ray/file/made_by.h"
 #include "geometry/materials.h"
 #include "scene/integrators.h"
 
@@ -263,6 +264,11 @@ std::string explainJson(const PixelFacts& facts) {
   json["shares"] = Json::list();
   for (const LightShare& share : lightShares(e.tree, facts.scene))
     json["shares"].add({{"from", share.from}, {"brings", toJson(share.brings)}, {"share", share.share}});
+  if (!facts.rays.empty() && facts.rays.front().node->hit)
+    if (const std::string calls =
+            callsThatMade(facts.scene, facts.rays.front().node->hit->object, facts.settings.time);
+        !calls.empty())
+      json["made"] = calls;
   json["lacksLightImage"] = hasLightImage(facts.settings) && !facts.light;
   if (facts.light) {
     const LightImagePixel& image = facts.light->image;

@@ -127,7 +127,7 @@ class TreeText {
     if (const std::string place = shortPlace(object.place); !place.empty()) what += " (" + place + ")";
     line(printable(what + (object.isMesh ? " triangle " : " part ") + std::to_string(hit.part) +
                    ", made of " + object.madeOf + ", at distance " + digits(hit.t)));
-    if (node.parent < 0 && hit.object < scene_.objects.size())
+    if (node.parent < 0)
       if (const std::string calls = callsThatMade(scene_, hit.object, time_); !calls.empty())
         line(printable("  made " + calls));
     const SurfacePoint& s = hit.surface;

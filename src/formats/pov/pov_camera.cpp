@@ -20,6 +20,7 @@ CameraNode Reader::camera() {
     c.sky = linear(by, c.sky);
   };
   const auto look = [&](const Vec3& at) {
+    c.lookAt = at;
     Vec3 d = at - c.location;
     const Real away = length(d);
     if (!(away > 0)) return;

@@ -294,6 +294,7 @@ void Reader::directive(const Token& at) {
     } while (depth > 0);
     return skipSemicolon();
   }
+  if (d.empty()) return warnings_.warn(place(at), "a # without a directive is left out", {}, "#");
   if (d == "read") fail(at, "#read reads a file of data, which Trace does not");
   fail(at, "#" + std::string(d) + " is no directive",
        "the directives are #declare, #local, #macro, #if, #while, #for, #switch, #include, #default ...");
@@ -582,7 +583,7 @@ void Reader::callMacro(const Ref<Macro>& macro, const Token& at) {
     }
     if (given < macro->parameters.size() && slot) own[macro->parameters[given]] = slot;
     ++given;
-    if (!takesMark(",")) break;
+    if (!takesMark(",") && given >= macro->parameters.size()) break;  // commas may lack
   }
   if (!peek().isMark(")")) expected("\",\" or \")\" after an argument of " + macro->name);
   next();

@@ -71,7 +71,8 @@ struct FinishNode {
   Color ambient{0.1}, emission{};
   Real diffuse = 0.6, brilliance = 1, phong = 0, phongSize = 40, specular = 0, roughness = 0.05, metallic = 0;
   Color reflectionLeast{}, reflectionMost{};
-  bool fresnel = false, reflectsMetal = false;
+  Real falloff = 1;  ///< how close to grazing angles a reflection grows
+  bool fresnel = false, reflectsMetal = false, conservesEnergy = false;
   Omissions left;
 };
 

@@ -187,6 +187,27 @@ Entries<T> spread(const std::string& kind, Entries<T> entries) {
   return edges;
 }
 
+/// Between colours of different transparency more entries: what is seen of a colour and what it lets through
+/// are products of its parts.
+Entries<PigmentNode> withBetween(const Entries<PigmentNode>& entries) {
+  constexpr int kParts = 8;
+  Entries<PigmentNode> all;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (i > 0 && entries[i].first > entries[i - 1].first) {
+      const PigmentNode &a = *entries[i - 1].second, &b = *entries[i].second;
+      const bool differ = a.color[3] != b.color[3] || a.color[4] != b.color[4];
+      for (int k = 1; differ && !a.pattern && !b.pattern && k < kParts; ++k) {
+        const Real share = static_cast<Real>(k) / kParts;
+        auto between = std::make_shared<PigmentNode>(a);
+        for (int j = 0; j < 5; ++j) between->color[j] = a.color[j] + share * (b.color[j] - a.color[j]);
+        all.emplace_back(entries[i - 1].first + share * (entries[i].first - entries[i - 1].first), between);
+      }
+    }
+    all.push_back(entries[i]);
+  }
+  return all;
+}
+
 /// From a to b, as the number of the texture goes from 0 to 1.
 Paint mixed(const Paint& a, const Paint& b, const Texture& amount) {
   if (!a.texture && !b.texture && a.scale == b.scale) return a;
@@ -335,7 +356,7 @@ Paint Painter::paint(const PigmentNode& p, const Leaf& leaf, bool uv) {
     if (pattern.image.file.empty()) return {leaf(p.color), {}};
     ImageMap map;
     map.file = pixelsOf(pattern);
-    map.srgb = true;
+    map.srgb = conventions_.linear;
     if (!uv && !p.uv) {
       map.mapping = pattern.image.mapType == 1   ? Mapping::sphere
                     : pattern.image.mapType == 2 ? Mapping::cylinder
@@ -369,6 +390,7 @@ Paint Painter::paint(const PigmentNode& p, const Leaf& leaf, bool uv) {
   entries = spread(pattern.kind, entries);
   std::stable_sort(entries.begin(), entries.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
+  entries = withBetween(entries);
   std::vector<Paint> paints;
   bool allPlain = true, allSame = true;
   for (const auto& [at, one] : entries) {
@@ -433,12 +455,49 @@ Color tintOf(const PigmentNode& density) {
 Real reliefOf(const std::string& kind) {
   constexpr Real kGradient = 0.135;
   if (kind == "bumps") return 0.7;
-  if (kind == "waves") return 1;
+  if (kind == "waves") return 2.4;
   if (kind == "ripples") return 0.45;
   return kGradient;
 }
 
 }  // namespace
+
+Paint Painter::opaque(const PigmentNode& pigment, Real strength, bool uv) {
+  return paint(
+      pigment, [&](const Numbers& c) { return notBelowZero(rgb(c) * (shown(c) * strength)); }, uv);
+}
+
+Paint Painter::passing(const PigmentNode& pigment, bool uv) {
+  return paint(
+      pigment, [](const Numbers& c) { return clamp01(notBelowZero(rgb(c) * c[3] + Color(c[4]))); }, uv);
+}
+
+Paint Painter::layered(const Paint& top, const Paint& passing, const Paint& below) {
+  return added(top, product(below, passing));
+}
+
+/// Fresnel's formula by Schlick's approximation, with that of 0 for an index of 1.
+Painter::Mirror Painter::mirror(const FinishNode& f) const {
+  const Color gain = notBelowZero(f.reflectionMost + f.reflectionLeast * -1);
+  if (!f.fresnel) return {f.reflectionLeast, gain, f.falloff};
+  if (index_ == 1) return {f.reflectionLeast, Color(0)};
+  const Real root = (index_ - 1) / (index_ + 1), straight = root * root;
+  return {f.reflectionLeast + gain * straight, gain * (1 - straight)};
+}
+
+/// Blinn's highlight needs about four times the exponent of Phong's (Fisher and Woo, Graphics Gems IV).
+Real Painter::shininess(const FinishNode& f) const {
+  constexpr Real kBlinnOfPhong = 4;
+  const bool mirrored = conventions_.mirrorHighlights;
+  return f.specular >= f.phong ? 1 / std::max(f.roughness, 1e-4) / (mirrored ? kBlinnOfPhong : 1)
+                               : f.phongSize * (mirrored ? 1 : kBlinnOfPhong);
+}
+
+/// A surface has one brilliance and one exponent of its mirror: those of the first layer that gives them.
+void Painter::takeAngles(Look& to, const Look& from) {
+  if (to.brilliance == 1) to.brilliance = from.brilliance;
+  if (to.grazing.none()) to.grazingExponent = from.grazingExponent;
+}
 
 Painter::Look Painter::averageOf(const Entries<TextureNode>& entries, const std::vector<Look>& looks) {
   Real total = 0;
@@ -446,7 +505,7 @@ Painter::Look Painter::averageOf(const Entries<TextureNode>& entries, const std:
   if (!(total > 0)) return looks.back();
   Look all = looks.front();
   for (Paint Look::*field : {&Look::diffuse, &Look::ambient, &Look::emissive, &Look::specular,
-                             &Look::reflective, &Look::transmissive}) {
+                             &Look::reflective, &Look::grazing, &Look::transmissive}) {
     Paint sum;
     for (std::size_t i = 0; i < looks.size(); ++i) {
       Paint part = looks[i].*field;
@@ -458,6 +517,7 @@ Painter::Look Painter::averageOf(const Entries<TextureNode>& entries, const std:
   for (const Look& look : looks) {
     all.clear = all.clear && look.clear;
     if (all.shininess == 0) all.shininess = look.shininess;
+    takeAngles(all, look);
     if (!all.relief) all.relief = look.relief, all.bump = look.bump;
   }
   return all;
@@ -481,9 +541,10 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
         const Texture amount = stretch(number, entries[i - 1].first, entries[i].first);
         const Look& b = looks[i];
         for (Paint Look::*field : {&Look::diffuse, &Look::ambient, &Look::emissive, &Look::specular,
-                                   &Look::reflective, &Look::transmissive})
+                                   &Look::reflective, &Look::grazing, &Look::transmissive})
           l.*field = mixed(l.*field, b.*field, amount);
         if (l.shininess == 0) l.shininess = b.shininess;
+        takeAngles(l, b);
         if (!l.relief) l.relief = b.relief, l.bump = b.bump;
         l.clear = l.clear && b.clear;
       }
@@ -495,20 +556,17 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
     const FinishNode& f = layer.finish ? *layer.finish : kUsual;
     tell(f.left);
     if (layer.normal) tell(layer.normal->left);
-    // Closest to cos^brilliance, in the mean of squares, on a ball that is lit from the viewer's side.
-    const Real strength = f.diffuse * 4 / (3 + std::max(f.brilliance, 0.0));
-    l.diffuse = paint(
-        p, [&](const Numbers& c) { return notBelowZero(rgb(c) * (shown(c) * strength)); }, uv);
+    l.brilliance = std::max(f.brilliance, 0.0);
+    l.diffuse = opaque(p, f.diffuse, uv);
     l.ambient = paint(
         p, [&](const Numbers& c) { return notBelowZero(rgb(c) * f.ambient * shown(c)); }, uv);
     if (!isBlack(f.emission))
       l.emissive = paint(
           p, [&](const Numbers& c) { return notBelowZero(rgb(c) * f.emission * shown(c)); }, uv);
-    l.transmissive = paint(
-        p, [](const Numbers& c) { return clamp01(notBelowZero(rgb(c) * c[3] + Color(c[4]))); }, uv);
+    l.transmissive = passing(p, uv);
     const Real highlight = std::max(f.specular, f.phong);
     if (highlight > 0) {
-      l.shininess = f.specular >= f.phong ? 1 / std::max(f.roughness, 1e-4) : 4 * f.phongSize;
+      l.shininess = shininess(f);
       l.specular = paint(
           p,
           [&](const Numbers& c) {
@@ -516,13 +574,18 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
           },
           uv);
     }
-    const Color mirror =
-        f.fresnel ? f.reflectionMost * 0.1 : f.reflectionLeast * 0.75 + f.reflectionMost * 0.25;
-    if (!isBlack(mirror))
-      l.reflective = paint(
-          p, [&](const Numbers& c) { return notBelowZero(f.reflectsMetal ? rgb(c) * mirror : mirror); }, uv);
+    const auto mirrored = [&](const Color& weight) {
+      return paint(
+          p, [&](const Numbers& c) { return notBelowZero(f.reflectsMetal ? rgb(c) * weight : weight); }, uv);
+    };
+    const Mirror mirror = this->mirror(f);
+    if (!isBlack(mirror.least)) l.reflective = mirrored(mirror.least);
+    if (!isBlack(mirror.gain)) l.grazing = mirrored(mirror.gain);
+    l.grazingExponent = mirror.exponent;
+    if (f.conservesEnergy)
+      l.transmissive.scale = l.transmissive.scale * (1 - maxComponent(clamp01(mirror.least)));
     l.clear = !l.transmissive.texture && l.transmissive.scale == Color(1) && l.reflective.none() &&
-              l.specular.none();
+              l.grazing.none() && l.specular.none();
     if (layer.normal && layer.normal->pattern && layer.normal->amount != 0) {
       const NormalNode& n = *layer.normal;
       if (solidOf(n.pattern->kind) && !isList(n.pattern->kind)) {
@@ -536,7 +599,7 @@ Painter::Look Painter::look(const TextureNode::Layer& layer, bool uv) {
   }
   if (!(layer.at == Affine())) {
     for (Paint Look::*field : {&Look::diffuse, &Look::ambient, &Look::emissive, &Look::specular,
-                               &Look::reflective, &Look::transmissive})
+                               &Look::reflective, &Look::grazing, &Look::transmissive})
       l.*field = placedBy(l.*field, layer.at);
     if (l.relief) {
       l.relief = moved(*l.relief, layer.at);
@@ -551,11 +614,12 @@ Painter::Look Painter::look(const TextureNode& texture, bool uv) {
   Look l = look(texture.layers.front(), uv);
   for (std::size_t i = 1; i < texture.layers.size(); ++i) {
     const Look top = look(texture.layers[i], uv);
-    for (Paint Look::*field :
-         {&Look::diffuse, &Look::ambient, &Look::emissive, &Look::specular, &Look::reflective})
-      l.*field = added(top.*field, product(l.*field, top.transmissive));
+    for (Paint Look::*field : {&Look::diffuse, &Look::ambient, &Look::emissive, &Look::specular,
+                               &Look::reflective, &Look::grazing})
+      l.*field = layered(top.*field, top.transmissive, l.*field);
     l.transmissive = product(l.transmissive, top.transmissive);
     if (top.shininess > 0) l.shininess = top.shininess;
+    takeAngles(l, top);
     if (top.relief) l.relief = top.relief, l.bump = top.bump;
     l.clear = l.clear && top.clear;
   }
@@ -564,6 +628,7 @@ Painter::Look Painter::look(const TextureNode& texture, bool uv) {
 
 Material Painter::material(const TextureNode& texture, const InteriorNode* interior,
                            const Affine& objectFromTexture, bool uv) {
+  index_ = interior ? interior->ior : 1;
   const Look l = look(texture, uv);
   if (interior) tell(interior->left);
   Material m;
@@ -578,7 +643,10 @@ Material Painter::material(const TextureNode& texture, const InteriorNode* inter
   set(&Phong::emissive, "emissive", l.emissive);
   set(&Phong::specular, "specular", l.specular);
   set(&Phong::reflective, "reflective", l.reflective);
+  set(&Phong::grazing, "grazing", l.grazing);
   set(&Phong::transmissive, "transmissive", l.transmissive);
+  phong.brilliance = l.brilliance;
+  phong.grazingExponent = l.grazingExponent;
   phong.shininess = l.shininess;
   if (interior && !l.transmissive.none()) {
     if (interior->ior > 0) phong.index = interior->ior;

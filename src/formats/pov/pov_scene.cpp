@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "base/budget.h"
@@ -34,6 +35,37 @@ struct Around {
 struct SolidPart {
   Operand operand;
   bool inverted = false;
+};
+
+/// Which kind of highlights most textures of a scene have: a render has one.
+class HighlightKinds {
+ public:
+  bool mostlyMirrored(const World& world) {
+    for (const Ref<Node>& node : world.objects) count(*node);
+    return mirrored_ > halfway_;
+  }
+
+ private:
+  bool isNew(const void* part) { return met_.insert(part).second; }
+  void count(const Node& node) {
+    if (!isNew(&node)) return;
+    for (const Ref<Node>& part : node.parts) count(*part);
+    if (node.texture) count(*node.texture);
+    for (const Ref<TextureNode>& texture : node.meshTextures)
+      if (texture) count(*texture);
+  }
+  void count(const TextureNode& texture) {
+    if (!isNew(&texture)) return;
+    for (const TextureNode::Layer& layer : texture.layers) {
+      for (const auto& [at, one] : layer.entries) count(*one);
+      if (!layer.finish || !layer.entries.empty()) continue;
+      mirrored_ += layer.finish->phong > layer.finish->specular;
+      halfway_ += layer.finish->specular > 0 && layer.finish->specular >= layer.finish->phong;
+    }
+  }
+
+  std::set<const void*> met_;
+  int mirrored_ = 0, halfway_ = 0;
 };
 
 class Builder {
@@ -83,6 +115,10 @@ std::string shortest(Real v) { return toText(v); }
 void Builder::build() {
   const Work work("placing the objects", static_cast<std::int64_t>(world_.objects.size()));
   camera();
+  // Pictures are made linear or left as they are, whichever is closer to that gamma.
+  const Real gamma = world_.gamma > 0 ? world_.gamma : world_.version >= 3.7 ? 1 : 2.2;
+  constexpr Real kMiddle = 1.5;
+  painter_.setConventions({HighlightKinds().mostlyMirrored(world_), gamma <= kMiddle});
   const Around nothing{world_.defaultTexture, base_, nullptr, false};
   for (const Ref<Node>& node : world_.objects) {
     checkBudget();
@@ -363,6 +399,7 @@ void Builder::light(const Node& node, const Affine& world, Around around, int de
     spot.color = color;
     spot.angle = std::clamp(l.falloff, 0.0, 180.0);
     spot.fullAngle = std::clamp(l.radius, 0.0, spot.angle);
+    spot.edge = SpotEdge::smooth;
     spot.exponent = l.tightness;
     spot.radius = size;
     fade(spot);
@@ -385,26 +422,21 @@ void Builder::light(const Node& node, const Affine& world, Around around, int de
 
 void Builder::sky() {
   Background& to = scene_.background;
-  if (world_.background) to.colors = {*world_.background};
+  Paint all;
+  if (world_.background) {
+    all.scale = *world_.background;
+    to.gradient = to.colors = {all.scale};  // every ray sees it
+  }
   if (!world_.sky || world_.sky->pigments.empty()) return;
   const SkyNode& sky = *world_.sky;
-  Paint all;
-  for (const Ref<PigmentNode>& p : sky.pigments) {
-    Paint one = painter_.paint(*p, [](const Numbers& c) {
-      const Real shown = std::clamp(1 - c[3] - c[4], 0.0, 1.0);
-      return Color(std::max(c[0], 0.0), std::max(c[1], 0.0), std::max(c[2], 0.0)) * shown;
-    });
-    const Paint passes = painter_.paint(
-        *p, [](const Numbers& c) { return clamp01(Color(c[0], c[1], c[2]) * c[3] + Color(c[4])); });
-    if (!all.none() && (passes.texture || !passes.none()))
-      leaveOut(sky.place, "a layer of the sky_sphere below another");
-    all = one;
-  }
+  for (const Ref<PigmentNode>& p : sky.pigments)
+    all = Painter::layered(painter_.opaque(*p), painter_.passing(*p), all);
   if (!all.texture) {
     to.colors = {all.scale};
     to.gradient = {all.scale};
     return;
   }
+  to.gradient.clear();
   const Texture texture = moved(*all.texture, base_ * sky.at);
   const auto seen = [&](const Vec3& direction) {
     return texture.at(
@@ -461,8 +493,10 @@ void Builder::settings() {
   if (std::any_of(world_.objects.begin(), world_.objects.end(),
                   [](const Ref<Node>& o) { return o->kind == Node::Kind::light && o->light.area; }))
     choose("light-samples", "4");
-  const bool linear = world_.gamma == 0 ? world_.version >= 3.7 : std::abs(world_.gamma - 1) < 0.3;
-  choose("transfer", linear ? "srgb" : "linear");
+  if (painter_.conventions().mirrorHighlights) choose("highlight", "phong");
+  const bool corrects = world_.gamma > 0 || world_.version >= 3.7;
+  choose("transfer", corrects ? "srgb" : "linear");
+  if (world_.gamma > 0 && world_.gamma != 1) choose("working-gamma", shortest(world_.gamma));
   if (world_.radiosity)
     leaveOut(SourcePlace{.file = scene_.file}, "radiosity",
              "--integrator path renders light between surfaces");

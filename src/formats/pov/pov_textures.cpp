@@ -373,6 +373,7 @@ Ref<MapNode> Reader::map(const Token& keyword) {
             next();
           } else if (pattern(p)) {
             n->pattern = p;
+            comma();
             if (startsNumber()) n->amount = number();
           } else {
             PatternNode none;
@@ -593,7 +594,9 @@ Ref<FinishNode> Reader::finish() {
     } else if (w == "crand") {
       number();
       leaveOut(t, "crand");
-    } else if (w == "conserve_energy" || w == "use_alpha" || w == "fresnel") {
+    } else if (w == "conserve_energy") {
+      f->conservesEnergy = flag();
+    } else if (w == "use_alpha" || w == "fresnel") {
       flag();
     } else if (w == "reflection") {
       f->fresnel = false;
@@ -613,7 +616,9 @@ Ref<FinishNode> Reader::finish() {
           } else if (takesName("metallic")) {
             f->reflectsMetal = true;
             if (startsNumber()) number();
-          } else if (takesName("falloff") || takesName("exponent")) {
+          } else if (takesName("falloff")) {
+            f->falloff = number();
+          } else if (takesName("exponent")) {
             number();
           } else {
             expected("fresnel, metallic, falloff, exponent or \"}\" in the reflection");

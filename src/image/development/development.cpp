@@ -106,6 +106,11 @@ Color transferred(const Color& c, Transfer transfer) {
   return transfer == Transfer::linear ? c : Color{srgbOfLinear(c.r), srgbOfLinear(c.g), srgbOfLinear(c.b)};
 }
 
+Color lightOf(const Color& c, double workingGamma) {
+  const auto power = [&](double v) { return v > 0 ? math::pow(v, workingGamma) : v; };
+  return workingGamma == 1 ? c : Color{power(c.r), power(c.g), power(c.b)};
+}
+
 /// Noise of one level, a triangle from -1 to 1: the mean of many pixels is the value itself.
 void dither(Picture& picture) {
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -140,7 +145,7 @@ WhiteBalance whiteBalance(double kelvin) {
 Color developed(Color color, const Development& d) {
   if (d.exposure != 0) color = color * math::exp2(d.exposure);
   if (d.whiteBalance > 0) color = whiteBalance(d.whiteBalance)(color);
-  return transferred(curved(color, d.tone), d.transfer);
+  return transferred(lightOf(curved(color, d.tone), d.workingGamma), d.transfer);
 }
 
 Picture developed(Picture picture, const Development& d) {
@@ -159,6 +164,7 @@ Picture developed(Picture picture, const Development& d) {
   if (d.whiteBalance > 0) each(whiteBalance(d.whiteBalance));
   each([&](const Color& c) { return curved(c, d.tone); });
   picture = toned(std::move(picture), d.tone);
+  if (d.workingGamma != 1) each([&](const Color& c) { return lightOf(c, d.workingGamma); });
   if (d.transfer != Transfer::linear) each([&](const Color& c) { return transferred(c, d.transfer); });
   if (d.dither) dither(picture);
   return picture;

@@ -1,7 +1,7 @@
 // From the light that was gathered to the values that a screen shows: what a photographer does between the
 // film and the print.
 //
-//   bloom, exposure, white balance, tone, transfer, dither
+//   bloom, exposure, white balance, tone, working gamma, transfer, dither
 //
 // By default none of it happens: the courses' programs write linear values as they are. Files that hold
 // linear light (EXR, Radiance) are never developed.
@@ -22,6 +22,7 @@ struct Development {
   double exposure = 0;      ///< stops: a power of 2
   double whiteBalance = 0;  ///< temperature in kelvin of the light that is to look white; 0: as it is
   Tone tone = Tone::clamp;
+  double workingGamma = 1;  ///< exponent that makes linear light of the values
   Transfer transfer = Transfer::linear;
   bool dither = false;  ///< hides the steps of 8-bit levels in noise of one level
   bool operator==(const Development&) const = default;

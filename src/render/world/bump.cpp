@@ -112,12 +112,14 @@ Vec3 World::bentNormal(const Ray& ray, const Hit& hit, Bent what) const {
   if (heights.count == 0) return shading;
 
   // Heights are measured in the space of the object, along steps a thousandth of its size.
-  const Instance& instance = objects_[hit.object];
-  const Affine& out = instance.placement.outFromIn();
-  const Affine& in = instance.placement.inFromOut();
-  const Real size = instance.bounds.unbounded() || instance.bounds.empty()
+  const Instance& instance = instanceOf(hit.object);
+  const Affine out = worldFromObject(hit.object), in = objectFromWorld(hit.object);
+  Box3 bounds = instance.bounds;
+  if (hit.object >= plain_ && !bounds.unbounded() && !bounds.empty())
+    bounds = out * instance.placement.inFromOut() * bounds;  // from the group to the world
+  const Real size = bounds.unbounded() || bounds.empty()
                         ? maxComponent(abs(out.row[0]) + abs(out.row[1]) + abs(out.row[2]))
-                        : maxComponent(instance.bounds.size());
+                        : maxComponent(bounds.size());
   const Vec3 normal = normalize(transposed(out, shading));
   const Vec3 first = perpendicularTo(normal);
   const SurfaceSlopes along = heights.inUv ? slopes(hit) : SurfaceSlopes{};
@@ -132,7 +134,7 @@ Vec3 World::bentNormal(const Ray& ray, const Hit& hit, Bent what) const {
       return Vec2{uv.x + dot(by.u, across) * step, uv.y + dot(by.v, across) * step};
     };
     TexturePlace there = here;
-    there.point += tangent * step;
+    there.point += (instance.patternsInWorld ? across : tangent) * step;
     there.uv = moved(here.uv, along);
     there.secondUv = moved(here.secondUv, second);
     gradient += tangent * ((heights.at(there) - height) / step);

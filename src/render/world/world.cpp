@@ -123,7 +123,8 @@ Filling World::filling(const Hit& hit, const WhittedTerms& terms, const Settings
 Medium World::mediumAt(const MediumBody& body, const Vec3& point) const {
   if (body.model.uniform()) return body.model.most();
   TexturePlace place{};
-  place.point = objects_[body.object].placement.inFromOut() * point;
+  const Instance& instance = objects_[body.object];
+  place.point = instance.patternsInWorld ? point : instance.placement.inFromOut() * point;
   return body.model.at(place);
 }
 

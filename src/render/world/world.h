@@ -302,9 +302,10 @@ class World {
     bool convex = false;
     bool strands = false;
     bool solid = false;
-    bool mixed = false;  ///< parts of it are made of other materials
-    bool mapped = true;  ///< pictures lie on it by u and v; else they show one corner
-    bool holds = false;  ///< a ray may start inside of it: light passes it, and it encloses space
+    bool mixed = false;            ///< parts of it are made of other materials
+    bool patternsInWorld = false;  ///< as its material says, or one of several
+    bool mapped = true;            ///< pictures lie on it by u and v; else they show one corner
+    bool holds = false;            ///< a ray may start inside of it: light passes it, and it encloses space
     std::uint32_t material = 0;
     std::uint32_t form = 0;  ///< index into shapes_ and Forms, which objects share: a million balls have one
     std::shared_ptr<const MeshTree> mesh;  ///< shared by all objects that name the same data
@@ -485,6 +486,8 @@ class World {
   SurfaceSlopes slopes(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface) const;
   TexturePlace place(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
                      const Differentials* arrived) const;
+  TexturePlace placeInObject(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
+                             const Differentials* arrived) const;
 
   void bend(const Ray& ray, Hit& hit) const;
   /// The normal for shading bent by the textures of `bump`, or of `clearcoat_bump`.

@@ -341,6 +341,9 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       const World::Surface& surface = world.surfaces_.at(m);
       return surface.hasHoles || whitted(surface.bsdf).transmits();
     });
+    instance.patternsInWorld = std::any_of(used.begin(), used.end(), [&](std::uint32_t m) {
+      return m != MaterialMix::kClear && materials[m].patternSpace == PatternSpace::world;
+    });
     instance.blocks = instance.opaque && std::all_of(used.begin(), used.end(), [&](std::uint32_t m) {
                         return m == MaterialMix::kClear || materials[m].castsShadow;
                       });

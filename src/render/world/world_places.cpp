@@ -88,6 +88,18 @@ SurfaceSlopes World::slopes(std::uint32_t object, std::uint64_t part, const Surf
 
 TexturePlace World::place(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
                           const Differentials* arrived) const {
+  TexturePlace place = placeInObject(object, part, surface, arrived);
+  if (!instanceOf(object).patternsInWorld) return place;
+  place.point = surface.point;
+  if (arrived) {
+    place.pointX = arrived->originX;
+    place.pointY = arrived->originY;
+  }
+  return place;
+}
+
+TexturePlace World::placeInObject(std::uint32_t object, std::uint64_t part, const SurfacePoint& surface,
+                                  const Differentials* arrived) const {
   const Instance& instance = instanceOf(object);
   const Affine in = objectFromWorld(object);
   TexturePlace place;

@@ -25,9 +25,12 @@ struct Phong : Interior {
   using Bsdf = PhongBsdf;
 
   Color emissive, ambient, diffuse, specular, reflective, transmissive;
-  Real shininess = 0;  ///< exponent of the highlight
-  Real index = 1;      ///< index of refraction
-  Real shadow = 1;     ///< how dark shadows on it are: 0 shows none
+  Color grazing;             ///< what the mirrored ray gains at grazing angles
+  Real shininess = 0;        ///< exponent of the highlight
+  Real brilliance = 1;       ///< exponent of the cosine of diffuse light
+  Real grazingExponent = 5;  ///< how late the gain comes
+  Real index = 1;            ///< index of refraction
+  Real shadow = 1;           ///< how dark shadows on it are: 0 shows none
 
   static constexpr auto fields() {
     return Fields{
@@ -37,9 +40,15 @@ struct Phong : Interior {
         Field{"diffuse", &Phong::diffuse, "", 0, 1, "diffuse reflectance"},
         Field{"specular", &Phong::specular, "", 0, 1, "strength of the highlight"},
         Field{"reflective", &Phong::reflective, "", 0, 1, "weight of the mirrored ray"},
+        Field{"grazing", &Phong::grazing, "", 0, 1,
+              "what the mirrored ray gains in weight at grazing angles"},
         Field{"transmissive", &Phong::transmissive, "", 0, 1,
               "weight of the refracted ray, and the colour of shadows"},
         Field{"shininess", &Phong::shininess, "", 0, kNoLimit, "sharpness of the highlight"},
+        Field{"brilliance", &Phong::brilliance, "", 0, kNoLimit,
+              "exponent of the cosine of diffuse light: above 1 it looks like metal"},
+        Field{"grazing_exponent", &Phong::grazingExponent, "", 0, kNoLimit,
+              "how close to grazing angles the mirrored ray gains: exponent of 1 minus the cosine"},
         Field{"index", &Phong::index, "", 0, kNoLimit, "index of refraction"},
         Field{"shadow", &Phong::shadow, "", 0, 1,
               "fraction of a light that a shadow on the surface takes away"},
@@ -51,7 +60,7 @@ struct Phong : Interior {
   bool mirrorsSpecular = false;
 
   bool transmits() const { return !isBlack(transmissive); }
-  bool mirrors() const { return !isBlack(reflective); }
+  bool mirrors() const { return !isBlack(reflective) || !isBlack(grazing); }
 
   const Phong& asPhong() const { return *this; }
   /// The surface as light hits it.
@@ -61,7 +70,7 @@ struct Phong : Interior {
 /// Under the conventions of a render.
 struct PhongBsdf : WhittedTerms {
   Color diffuse, specular;
-  Real shininess = 0;
+  Real shininess = 0, brilliance = 1, grazingExponent = 5;
   Highlight highlight = Highlight::blinn;
   bool litFromBehind = false;  ///< light from behind comes through: |N.L|, and a highlight straight ahead
 
@@ -74,21 +83,26 @@ struct PhongBsdf : WhittedTerms {
         named("diffuse", &PhongBsdf::diffuse),       named("specular", &PhongBsdf::specular),
         named("reflective", &PhongBsdf::reflective), named("transmissive", &PhongBsdf::transmissive),
         named("shininess", &PhongBsdf::shininess),   named("index", &PhongBsdf::index),
-        named("shadow", &PhongBsdf::shadow)};
+        named("shadow", &PhongBsdf::shadow),         named("grazing", &PhongBsdf::grazing),
+        named("brilliance", &PhongBsdf::brilliance), named("grazing_exponent", &PhongBsdf::grazingExponent)};
   }
 
   bool scatters() const { return !isBlack(diffuse) || !isBlack(specular); }
   /// Light of one side is scattered by the cosine.
-  bool isEven() const { return isBlack(specular) && !litFromBehind; }
+  bool isEven() const { return isBlack(specular) && !litFromBehind && brilliance == 1; }
   bool mirrorIsExact() const { return true; }
-  Color mirrorWeight(Real) const { return reflective; }
+  Color mirrorWeight(Real cosine) const {
+    if (isBlack(grazing)) return reflective;
+    return reflective + grazing * math::pow(std::clamp(1 - cosine, 0.0, 1.0), grazingExponent);
+  }
   Color passWeight(Real) const { return transmissive; }
 
   /// The fraction of light from `toLight` that goes toward `toEye` at a surface of normal `n` (all unit
   /// vectors). The highlight is not multiplied by N.L.
   Scatter scatter(const Vec3& n, const Vec3& toLight, const Vec3& toEye) const {
     const Real cosLight = dot(n, toLight);
-    Scatter scatter{diffuse * (litFromBehind ? std::abs(cosLight) : std::max(0.0, cosLight)), {}};
+    const Real lit = litFromBehind ? std::abs(cosLight) : std::max(0.0, cosLight);
+    Scatter scatter{diffuse * (brilliance == 1 ? lit : math::pow(lit, brilliance)), {}};
     if (isBlack(specular)) return scatter;
     Real cosHighlight;
     if (highlight == Highlight::blinn) {
@@ -170,6 +184,9 @@ inline PhongBsdf Phong::at(const Rules& rules) const {
   bsdf.specular = specular;
   bsdf.reflective = mirrorsSpecular && rules.mirrorDefault == MirrorDefault::specular ? specular : reflective;
   bsdf.transmissive = transmissive;
+  bsdf.grazing = grazing;
+  bsdf.grazingExponent = grazingExponent;
+  bsdf.brilliance = brilliance;
   bsdf.shininess = shininess * rules.shininessScale;
   bsdf.index = index;
   bsdf.fill(*this, index);

@@ -98,12 +98,13 @@ struct Solid : PatternColors {
     switch (kind) {
       case SolidPattern::bozo: return noiseAt(p);
       case SolidPattern::agate: {
-        const Real t = 0.5 * (math::sin(2 * kPi * (0.5 * (1.3 * number * sum(p) + 1.1 * p.z))) + 1);
+        const Real t = 0.5 * (math::sin(2 * kPi * (1.3 * number * sum(p) + 1.1 * p.z)) + 1);
         return math::pow(std::clamp(t, 0.0, 1.0), 0.77);
       }
       case SolidPattern::granite: {
         Real value = 0, f = 1;
-        for (int i = 0; i < 6; ++i, f *= 2) value += std::abs(0.5 - noiseAt(p * (4 * f))) / f;
+        for (int i = 0; i < 6; ++i, f *= 2)
+          value += std::min(std::abs(1 - 2 * noiseAt(p * (4 * f))), 0.5) / f;
         return std::min(value, 1.0);
       }
       case SolidPattern::gradient: return dot(p, axis);
@@ -123,8 +124,8 @@ struct Solid : PatternColors {
       case SolidPattern::cylindrical: return std::max(0.0, 1 - math::hypot(p.x, p.z));
       case SolidPattern::planar: return std::max(0.0, 1 - std::abs(p.y));
       case SolidPattern::wrinkles: {
-        Real value = noiseAt(p), f = 2;
-        for (int i = 1; i < 10; ++i, f *= 2) value += noiseAt(p * f) / f;
+        Real value = strongNoiseAt(p), f = 2;
+        for (int i = 1; i < 10; ++i, f *= 2) value += strongNoiseAt(p * f) / f;
         return value / 2;
       }
       case SolidPattern::crackle: {
@@ -151,8 +152,9 @@ struct Solid : PatternColors {
           const Vec3 source = normalize(Vec3{(bits & 1023) / 511.5 - 1, (bits >> 10 & 1023) / 511.5 - 1,
                                              (bits >> 20 & 1023) / 511.5 - 1.003});
           const Real away = std::max(length(p - source), 1e-3);
-          const Real f = kind == SolidPattern::waves ? 0.25 + 4 * ((bits >> 5 & 255) / 255.0) : 1;
-          value += (kind == SolidPattern::waves ? 1 / f : 1) * math::sin(2 * kPi * (away * f + phase));
+          const bool isWave = kind == SolidPattern::waves;  // long ones are higher
+          const Real f = isWave ? 0.05 + 0.95 * ((bits >> 5 & 255) / 255.0) : 1;
+          value += (isWave ? 0.577 / std::sqrt(f) : 1) * math::sin(2 * kPi * (away * f + phase));
         }
         return 0.5 + 0.5 * value / kSources;
       }
@@ -171,18 +173,25 @@ struct Solid : PatternColors {
   }
 
  private:
-  /// Smooth noise from 0 to 1.
-  static Real noiseAt(const Vec3& p) {
-    return std::clamp(0.53 + 0.48 * gradientNoise<3>({p.x, p.y, p.z}, 7), 0.0, 1.0);
+  /// Gradient noise with the wavelength of POV-Ray's. Faces of objects often lie on whole numbers, where
+  /// gradient noise is 0: it is moved away from these.
+  static Real lattice(const Vec3& p, std::uint32_t seed) {
+    constexpr Real kFrequency = 0.93;
+    return gradientNoise<3>({kFrequency * p.x + 0.37, kFrequency * p.y + 0.21, kFrequency * p.z + 0.43},
+                            seed);
   }
+  /// Smooth noise from 0 to 1: mean 0.507, standard deviation 0.115.
+  static Real noiseAt(const Vec3& p) { return std::clamp(0.507 + 0.405 * lattice(p, 7), 0.0, 1.0); }
+  /// The noise that sums are made of, spread twice as wide.
+  static Real strongNoiseAt(const Vec3& p) { return std::clamp(2 * noiseAt(p) - 0.5, 0.0, 1.0); }
   static Vec3 vectorAt(const Vec3& p) {
-    const std::array<Real, 3> q{p.x, p.y, p.z};
-    return Vec3{gradientNoise<3>(q, 11), gradientNoise<3>(q, 12), gradientNoise<3>(q, 13)};
+    constexpr Real kSpread = 0.83;
+    return Vec3{lattice(p, 11), lattice(p, 12), lattice(p, 13)} * kSpread;
   }
   /// The sum of octaves of noise, about 0.5 each.
   Real sum(const Vec3& p) const {
-    Real value = noiseAt(p), l = lambda, o = omega;
-    for (int i = 2; i <= octaves; ++i, l *= lambda, o *= omega) value += o * noiseAt(p * l);
+    Real value = strongNoiseAt(p), l = lambda, o = omega;
+    for (int i = 2; i <= octaves; ++i, l *= lambda, o *= omega) value += o * strongNoiseAt(p * l);
     return value;
   }
   Vec3 bent(const Vec3& p) const {

@@ -274,7 +274,7 @@ void Materials::unknownField(const Block& block, const Item& field) {
   if (!model.is<Phong>()) {
     const auto fields =
         keywords(model, {"name", "bump", kOpacity, "casts_shadow", "displacement", "displacement_levels",
-                         "pattern_scale", "pattern_rotate", "pattern_translate"});
+                         "pattern_scale", "pattern_rotate", "pattern_translate", "pattern_space"});
     const std::string meant = didYouMean(key, fields);
     return findings_.error(
         field,
@@ -289,10 +289,10 @@ void Materials::unknownField(const Block& block, const Item& field) {
     return findings_.error(field, "material has no field \"" + std::string(key) + "\"",
                            "a texture takes the place of a field's value: diffuse = map(\"a.png\")");
   if (having.empty())
-    return findings_.unknownField(
-        Material::kKeyword, field,
-        keywords(model, {"name", "bump", kOpacity, "casts_shadow", "displacement", "displacement_levels",
-                         "pattern_scale", "pattern_rotate", "pattern_translate", kModel, kLibrary}));
+    return findings_.unknownField(Material::kKeyword, field,
+                                  keywords(model, {"name", "bump", kOpacity, "casts_shadow", "displacement",
+                                                   "displacement_levels", "pattern_scale", "pattern_rotate",
+                                                   "pattern_translate", "pattern_space", kModel, kLibrary}));
   const std::string of = "it is one of model = " + list(having, "or");
   if (findings_.isOfKind())
     return findings_.error(
