@@ -21,6 +21,9 @@ std::atomic<int> gStops{0};
 enum class Phase { starting, preparing, rendering, finishing };
 std::atomic<Phase> gPhase{Phase::starting};
 std::atomic<bool> gAsked{false};  // to stop, while preparing or finishing
+constexpr const char* kNothingWritten = "\nnothing written: stopped at once by the user\n";
+std::atomic<const char*> gLastLine{kNothingWritten};
+static_assert(std::atomic<const char*>::is_always_lock_free);
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Phase>::is_always_lock_free);
 
 constexpr int kStoppedAtOnce = 130;  // 128 + SIGINT, as shells report it
@@ -31,8 +34,7 @@ void post(char message) {
 
 void onInterrupt(os::Interrupt interrupt) {
   if (interrupt != os::Interrupt::stop) return post('w');
-  if (gPhase == Phase::starting || gStops.fetch_add(1) > 0)
-    os::endAtOnce("\nnothing written: stopped at once by the user\n", kStoppedAtOnce);
+  if (gPhase == Phase::starting || gStops.fetch_add(1) > 0) os::endAtOnce(gLastLine.load(), kStoppedAtOnce);
   gAsked = gPhase == Phase::preparing || gPhase == Phase::finishing;
   post('s');  // also for a render that begins right now
 }
@@ -74,6 +76,7 @@ Signals::Signals() : handler_(onInterrupt) { gBell = &bell_; }
 
 Signals::~Signals() {
   gBell = nullptr;
+  gLastLine = kNothingWritten;
   gAsked = false;
   gStops = 0;
   gPhase = Phase::starting;
@@ -89,6 +92,11 @@ void Signals::renderingBegins() {
 void Signals::finishingBegins(bool stopped) {
   gPhase = Phase::finishing;
   gAsked = !stopped && gStops > 0;
+}
+
+void Signals::lastLineIs(const std::string& line) {
+  lines_.push_back("\n" + line + "\n");
+  gLastLine = lines_.back().c_str();
 }
 
 void Signals::look() {
