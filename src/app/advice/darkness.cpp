@@ -171,13 +171,15 @@ double meanLevel(const Picture& cells, const std::vector<char>& seen, Developmen
 }
 
 /// Another exposure, if it is the cause: the settings' own darkens, or the measured one follows the light, so
-/// that no other light would help.
+/// that no other light would help. Light of a sky or an emissive object is left as it is, too.
 std::optional<Cure> otherExposure(const Scene& scene, const Settings& settings, const Picture& cells,
                                   const std::vector<char>& seen, std::optional<Real> measured) {
   constexpr Real kDarkens = -1, kFarthest = 20;
   constexpr double kLeast = 60, kMost = 130;  // mean levels with which a picture needs no other cure
   const Real own = settings.exposure - measured.value_or(0);
-  if (!measured && own > kDarkens) return {};
+  const bool hasLamp = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                   [](const LightSource& source) { return source.light.color() != nullptr; });
+  if (!measured && hasLamp && own > kDarkens) return {};
   const Development development = developmentOf(settings);
   Real stops = -own;  // as if there were none
   const double plain = meanLevel(cells, seen, development, stops);
@@ -318,10 +320,10 @@ std::optional<Cure> unsampledEmitter(const Scene& scene, const World& world) {
 std::optional<Cure> cureOf(const Scene& scene, const Settings& settings, const World& world,
                            const Picture& cells, const std::vector<char>& seen, const RenderFacts& facts) {
   if (!anyOf(seen)) return lookAround(scene);
+  if (auto cure = unsampledEmitter(scene, world)) return cure;
   if (auto cure = otherExposure(scene, settings, cells, seen, facts.measured)) return cure;
   if (!facts.measured)
     if (auto cure = strongerLight(scene, settings, world, seen)) return cure;
-  if (auto cure = unsampledEmitter(scene, world)) return cure;
   if (auto cure = outOfSolid(scene, world)) return cure;
   if (auto cure = turnedSun(scene, settings, world, seen)) return cure;
   if (facts.whyUnlit)
