@@ -168,7 +168,7 @@ int renderFrames(const Arguments& given, const std::string& pattern, const Conso
     const Part part{start, static_cast<std::int64_t>(done), static_cast<std::int64_t>(missing.size())};
     PictureFiles files = session.filesFor(picture);
     RenderResult result = renderPictureWatched(session, arguments, signals, console, progress, files, part);
-    reportLosses(session, result, console);
+    reportLosses(session, result, console, done == 0);
     if (result.end != End::finished) {
       code = exitCode(result);
       stopped = whyStopped(result);
@@ -193,6 +193,12 @@ int renderFrames(const Arguments& given, const std::string& pattern, const Conso
     removed += removedText(files);
     size = pictureText(session, 1) + andPasses(session.settings());
     console.line(LogLevel::debug, "wrote " + picture);
+    if (done + 1 < missing.size())
+      signals.lastLineIs(
+          "stopped at once by the user: wrote " +
+          span(pattern, {missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(done + 1)}) + " (" +
+          std::to_string(done + 1) + " of " + std::to_string(missing.size()) + " frames)" +
+          howToGoOn(arguments.frames, missing[done + 1]));
   }
 
   const std::string what =

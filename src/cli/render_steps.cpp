@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/lint/lint.h"
 #include "app/session/picture_layers.h"
 #include "app/session/render_warnings.h"
 #include "base/budget.h"
@@ -152,10 +153,11 @@ void reportOldCheckpoints(const Session& session, const PictureFiles& files, con
                                    ": rm" + names);
 }
 
-void reportLosses(const Session& session, const RenderResult& result, const Console& console) {
+void reportLosses(const Session& session, const RenderResult& result, const Console& console,
+                  bool tellsLimit) {
   const BudgetScope unlimited(nullptr);  // the time may be over
   if (const double removed = static_cast<double>(result.statistics.lightRemoved) / Statistics::kLightParts;
-      removed > 0) {
+      removed > 0 && tellsLimit) {
     const Picture picture = session.film().picture(), counts = session.film().sampleCounts();
     double light = 0, samples = 0;
     for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -335,6 +337,10 @@ std::string andPasses(const Settings& settings) {
   if (names.empty()) return "";
   const char* with = settings.passFormat == PassFormat::layers ? " with the pass" : " and the pass";
   return with + std::string(names.find(',') == std::string::npos ? " " : "es ") + names;
+}
+
+std::function<std::optional<Message>()> whyUnlitIn(const Session& session) {
+  return [&] { return whyUnlit(session.scene(), session.settings(), session.world()); };
 }
 
 std::string whyStopped(const RenderResult& result) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +41,12 @@ std::string settleCheckpoint(const Session& session, const RenderResult& result,
 /// Tells of checkpoints of other pictures that lie beside a finished one, which nothing else takes away.
 void reportOldCheckpoints(const Session& session, const PictureFiles& files, const Console& console);
 
-/// Warns of samples that were left out, and tells what the firefly limit took away.
-void reportLosses(const Session& session, const RenderResult& result, const Console& console);
+/// For Session::firstAid(): what lint finds of the lights. Refers to the session.
+std::function<std::optional<Message>()> whyUnlitIn(const Session& session);
+
+/// Warns of samples that were left out, and tells what the firefly limit took away, if that is asked for.
+void reportLosses(const Session& session, const RenderResult& result, const Console& console,
+                  bool tellsLimit = true);
 
 struct SavedPicture {
   std::string path;        ///< the picture's name; "" if it, or a pass, could be written nowhere

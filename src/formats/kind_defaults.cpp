@@ -256,7 +256,6 @@ void addKindDefaults(Scene& scene, const KindGiven& given, const SourcePlace& pl
   const Box3 seen = boundsOfInterest(scene);
   addCamera(scene, given, seen);
   fitCamera(scene);
-  for (Material& material : scene.materials) completeMaterial(material);
   smoothMeshes(scene);
   letLightsReach(scene, given, seen);
   if (!givesLight(scene)) {

@@ -212,12 +212,11 @@ Material plainMaterial() {
   return {"", phong, {}};
 }
 
-void completeMaterial(Material& material) {
-  Material unsaid;
-  unsaid.sides = material.sides;
-  if (material != unsaid) return;
-  material = plainMaterial();
-  material.sides = unsaid.sides;
+void makePlain(Material& material) {
+  Material plain = plainMaterial();
+  plain.name = std::move(material.name);
+  plain.sides = material.sides;
+  material = std::move(plain);
 }
 
 Box3 bounds(const Scene& scene) {

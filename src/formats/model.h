@@ -103,8 +103,8 @@ Scene sceneOf(Model model, const std::string& file, std::string_view format);
 /// The material of a mesh without one: a diffuse light grey.
 Material plainMaterial();
 
-/// Makes it plain if nothing but its sides was given.
-void completeMaterial(Material& material);
+/// Gives it the looks of plainMaterial(); its name and its sides stay.
+void makePlain(Material& material);
 
 /// The bounds of all objects, in the world.
 Box3 bounds(const Scene& scene);

@@ -254,8 +254,7 @@ void PartState::setObject(const Fields& fields) {
       const std::string_view key = item.key();
       if (key == trace::Material::kKeyword) {
         // A new one, since others may have the old one.
-        scene.materials.push_back(reader.read(item.value(), reader.current));
-        trace::completeMaterial(scene.materials.back());
+        scene.materials.push_back(reader.completed(reader.read(item.value(), reader.current)));
         object.material = static_cast<std::uint32_t>(scene.materials.size() - 1);
       } else if (key == "name") {
         rayfile::read(findings, key, item.value(), object.name);

@@ -139,9 +139,10 @@ std::vector<Problem> Scene::lint(const Options& options) const {
     readSurroundings(of.scene, of.settings, {.memory = trace::allowedMemory(of.settings)}, messages);
     const trace::World world = compile(of.scene, of.settings, messages);
     warnOfSettings(of.scene, of.settings, world, messages);
-    settleExposure(world, of.settings);
+    const std::optional<trace::Real> exposure = settleExposure(world, of.settings);
     std::vector<Problem> problems;
-    for (const trace::LintFinding& finding : trace::lint(of.scene, of.settings, world, messages.all())) {
+    for (const trace::LintFinding& finding :
+         trace::lint(of.scene, of.settings, world, messages.all(), exposure)) {
       problems.push_back(problemOf(finding.message));
       problems.back().check = finding.check;
     }

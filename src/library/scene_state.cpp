@@ -104,8 +104,6 @@ void SceneState::add(std::string_view statements) {
   trace::rayfile::PartGiven said;
   try {
     said = trace::rayfile::readPart(file, statements, scene, messages);
-    for (std::size_t i = materials; i < scene.materials.size(); ++i)
-      trace::completeMaterial(scene.materials[i]);
     changePixels(scene, [&](trace::Pixels& pixels) {
       if (!pixels.map && !pixels.file.empty()) pixels.place = moved(pixels.place);
     });

@@ -7,6 +7,8 @@
 
 #include "base/text.h"
 #include "geometry/shapes/solids/csg_tree.h"
+#include "geometry/traced.h"
+#include "math/box.h"
 #include "scene/groups.h"
 #include "scene/integrators.h"
 #include "scene/picture_size.h"
@@ -60,6 +62,16 @@ bool isBent(const Scene& scene, const Shape& shape, std::uint32_t material) {
   const auto& parts = shape.operands().list();
   return std::any_of(parts.begin(), parts.end(),
                      [&](const Operand& part) { return isBent(scene, part.shape, part.material); });
+}
+
+Box3 boxAround(const Object& object) { return object.worldFromObject * prepare(object.shape).bounds(); }
+
+/// An emissive object that is so small seen from the glass that few random paths hit it through that.
+bool isMissedThrough(const Object& glass, const Object& emitter) {
+  constexpr Real kSmall = 0.1;  // radius over distance
+  const Box3 from = boxAround(glass), to = boxAround(emitter);
+  if (!isFinite(from.size()) || !isFinite(to.size())) return false;
+  return maxComponent(to.size()) / 2 < kSmall * length(to.center() - from.center());
 }
 
 /// Somebody gives the option, in the layer that gives the quality or a later one.
@@ -130,11 +142,15 @@ IntegratorKind integratorFor(const Scene& scene, const Settings& settings) {
   if (settings.quality != Quality::final) return IntegratorKind::path;
   const bool lamps = std::any_of(scene.lights.begin(), scene.lights.end(),
                                  [](const LightSource& source) { return isMissedByPaths(source.light); });
-  const std::vector<const Object*> objects = allObjects(scene);
-  const bool glass = std::any_of(objects.begin(), objects.end(), [&](const Object* object) {
-    return isBent(scene, object->shape, object->material);
-  });
-  return lamps && glass ? IntegratorKind::bdpt : IntegratorKind::path;
+  std::vector<const Object*> glass = allObjects(scene);
+  std::erase_if(glass, [&](const Object* object) { return !isBent(scene, object->shape, object->material); });
+  const bool missesEmitter =
+      std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& emitter) {
+        return glows(scene.materials[emitter.material]) &&
+               std::any_of(glass.begin(), glass.end(),
+                           [&](const Object* g) { return isMissedThrough(*g, emitter); });
+      });
+  return (lamps && !glass.empty()) || missesEmitter ? IntegratorKind::bdpt : IntegratorKind::path;
 }
 
 Settings settingsFor(const Scene& scene, std::initializer_list<std::span<const Choice>> layers) {

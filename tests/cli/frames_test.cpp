@@ -7,6 +7,7 @@
 
 #include "image/codecs/codec.h"
 #include "program.h"
+#include "support/panes.h"
 
 namespace trace::test {
 namespace {
@@ -178,6 +179,25 @@ TEST_F(Frames, CtrlCLeavesFinishedFrames) {
     if (entry.path().extension() != ".png") continue;
     for (const auto& [key, text] : readMetadata(entry.path().string())) EXPECT_NE(key, "Incomplete");
   }
+}
+
+TEST_F(Frames, CtrlCTwiceSaysWhichFramesAreThere) {
+  std::string panes = kPanes;
+  panes.insert(panes.find("scale"), "if (time > 0) {\n");
+  write("panes.ray", panes + "}\nsphere { }\n");  // the second frame takes years
+  Program program(folder(), {"panes.ray", "-w", "8", "-r", "60", "--progress=json", "--frames", "0-9", "-o",
+                             "f.#.png", "--log-level", "debug"});
+  ASSERT_TRUE(program.says("wrote f.0.png"));
+  ASSERT_TRUE(program.says("\"done\":"));
+  program.kill(SIGINT);
+  ASSERT_TRUE(program.says("Ctrl-C again"));
+  program.kill(SIGINT);
+  EXPECT_EQ(program.wait(), 130);
+  EXPECT_TRUE(contains(program.err(),
+                       "stopped at once by the user: wrote f.0.png (1 of 10 frames); stopped at "
+                       "frame 1: --frames 1-9 goes on there"))
+      << program.err();
+  EXPECT_FALSE(contains(program.err(), "nothing written")) << program.err();
 }
 
 TEST_F(Frames, SayThatNothingMovesOrThatTheTimeIsTheirs) {

@@ -485,5 +485,24 @@ TEST_F(Kind, QualityServesTheScenesOfTheCoursesToo) {
             std::string::npos);
 }
 
+TEST(KindErrors, WordsOfOtherLanguagesHaveHints) {
+  const std::pair<const char*, const char*> rows[]{
+      {"rotate 30 { box { } }", "rotate takes an axis and degrees"},
+      {"if (1 == 2) { } elif (1 == 1) { }", "else if (condition)"},
+      {"let a = foo(3)\ntranslate(a, 0, 0) { sphere { } }", "let foo(a) = 2 * a makes one"},
+      {"let a = sine(3)\ntranslate(a, 0, 0) { sphere { } }", "did you mean \"sin\"?"},
+      {"box { low = (0, 0, 0) }", "scale(4, 5, 6) { box { } }"}};
+  for (const auto& [text, hint] : rows) {
+    const std::string error = errorOf("Trace 1\n" + std::string(text));
+    EXPECT_TRUE(contains(error, hint)) << text << "\n" << error;
+    Messages messages;
+    try {
+      readScene("kind.ray", "Trace 1\n" + std::string(text), messages);
+    } catch (const Error& one) {
+      EXPECT_EQ(one.messages().size(), 1u) << text;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trace::test

@@ -49,7 +49,7 @@ TEST_F(Silence, AFirstSceneThatIsBlackIsToldWithAColourThatHelps) {
   EXPECT_EQ(r.code, 0);
   EXPECT_LT(meanLevel("black.png"), 2);
   EXPECT_TRUE(contains(r.err, "first.ray:3:1: warning: "));
-  EXPECT_TRUE(contains(r.err, "of the picture is darker than level 2 of 255"));
+  EXPECT_TRUE(contains(r.err, "of the picture is darker than level 20 of 255"));
   EXPECT_TRUE(contains(r.err, "fades with the square of the distance"));
   const Run lint = run({"lint", "first.ray"});
   EXPECT_EQ(lint.code, 6);
@@ -115,7 +115,7 @@ TEST_F(Silence, OneCauseIsToldOnceWithItsCure) {
   EXPECT_FALSE(contains(dark, "attenuation"));
   warnings(
       "camera { position = (0, 0, 0.2); look_at = (0, 0, -5) }\nsphere { }",
-      "one.ray:3:1: warning: 100 % of the picture is darker than level 2 of 255, its mean level is 0; the "
+      "one.ray:3:1: warning: 100 % of the picture is darker than level 20 of 255, its mean level is 0; the "
       "camera is inside this sphere",
       "move the camera's position out of it");
   warnings("sphere { material = { diffuse = (255, 0, 0) } }",
@@ -229,9 +229,11 @@ TEST_F(Silence, ANoisyPictureIsToldWithTheSamplesThatHalveItsError) {
   EXPECT_GE(2 * half, few - 2);
   EXPECT_LE(2 * half, 1.4 * few);
   EXPECT_EQ(errorWith("1024").first, 0);
-  EXPECT_FALSE(contains(
-      run({"noisy.ray", "noisy.png", "-w", "48", "--integrator", "path", "--spp", "4", "--denoise"}).err,
-      "noisy:"));
+  const auto denoisedWith = [&](const char* spp) {
+    return run({"noisy.ray", "noisy.png", "-w", "48", "--integrator", "path", "--spp", spp, "--denoise"}).err;
+  };
+  EXPECT_TRUE(contains(denoisedWith("8"), "noisy: before denoising"));
+  EXPECT_FALSE(contains(denoisedWith("256"), "noisy:"));
 }
 
 TEST_F(Silence, AMissedNoiseTargetIsToldWithTheSamplesThatReachIt) {
@@ -280,13 +282,28 @@ TEST_F(Silence, TheFireflyLimitCountsTheLightOfTheRegion) {
 }
 
 TEST_F(Silence, FirefliesAreToldWithTheLimitThatRemovesThem) {
+  // A small emitter that is not sampled as a light.
+  write(
+      "specks.ray",
+      "Trace 1\nplane { }\ncamera { position = (0, 3, 8); look_at = (0, 0.5, 0) }\n"
+      "translate(0, 1, 0) { scale(0.3) { menger { levels = 1; material = { emissive = (90, 90, 90) } } } }");
   const auto errorsOf = [&](const char* limit) {
-    return run({test::sourceFolder() + "/scenes/prism.ray", "prism.png", "-w", "64", "--spp", "8",
-                "--integrator", "path", "--firefly-limit", limit})
+    return run({"specks.ray", "specks.png", "-w", "64", "--spp", "8", "--integrator", "path", "--quality",
+                "none", "--auto-exposure", "--firefly-limit", limit})
         .err;
   };
   EXPECT_TRUE(contains(errorsOf("0"), "which --firefly-limit 8 removes"));
   EXPECT_FALSE(contains(errorsOf("8"), "fireflies"));
+}
+
+// The limit would take the caustic away.
+TEST_F(Silence, FirefliesOfACausticAreToldAnIntegrator) {
+  const std::string told = run({test::sourceFolder() + "/scenes/prism.ray", "prism.png", "-w", "64", "--spp",
+                                "8", "--integrator", "path", "--firefly-limit", "0"})
+                               .err;
+  EXPECT_TRUE(contains(told, "fireflies")) << told;
+  EXPECT_TRUE(contains(told, "--integrator bdpt finds it")) << told;
+  EXPECT_FALSE(contains(told, "--firefly-limit 8")) << told;
 }
 
 }  // namespace

@@ -209,6 +209,40 @@ TEST(RayLanguage, RandomNumbersAreThoseOfTheirPlace) {
   EXPECT_NE(p.y, p.z);
 }
 
+// A list may follow a statement without a semicolon.
+TEST(RayLanguage, ABracketThatBeginsALineBeginsAValue) {
+  const auto points = [](const std::string& body) {
+    Messages messages;
+    const Scene scene =
+        readScene("test.ray", "Trace 1\nprism { outline = (for i in 0..4 {\n" + body + "\n}) }", messages);
+    EXPECT_TRUE(messages.all().empty()) << body;
+    return scene.objects.at(0).shape;
+  };
+  const Shape wanted = points("let c = 72 * i; (cos(c), sin(c))");
+  for (const std::string before :
+       {"let c = 72 * i", "let c = i * 72", "let c = (72 * i)", "let n = 72 * i let c = n",
+        "let c = 72 * i // a turn", "let c = 72 * i /* a\nturn */"})
+    EXPECT_EQ(points(before + "\n(cos(c), sin(c))"), wanted) << before;
+  for (const std::string call : {"translate\n(1, 0, 0) { sphere { } }", "let a = cos\n(3)\nsphere { }"}) {
+    Messages messages;
+    try {
+      readScene("test.ray", "Trace 1\n" + call, messages);
+      ADD_FAILURE() << call;
+    } catch (const Error& error) {
+      EXPECT_NE(toString(error.messages().front()).find("a line that begins with ( begins a new value"),
+                std::string::npos)
+          << call;
+    }
+  }
+  EXPECT_EQ(origin("translate\n(1, 2, 3, sphere { })"), (Vec3{1, 2, 3})) << "in files of the courses";
+}
+
+TEST(RayLanguage, ATextIsAListOfItsLetters) {
+  EXPECT_EQ(value("count(\"a\u00e9c\")"), 3);
+  EXPECT_EQ(value("\"abc\"[1] == \"b\" ? 1 : 0"), 1);
+  EXPECT_EQ(load("for c in \"R.R\" { if (c == \"R\") { sphere { } } }").scene.objects.size(), 2u);
+}
+
 TEST(RayLanguage, TimeIsThatOfTheScene) {
   const std::string text = "SBT-raytracer 1.0\ntranslate(2 * time, key((0, 1), (2, 5)), 0, sphere { })";
   Messages messages;

@@ -79,8 +79,8 @@ Real exposureFor(const Picture& picture, const Development& development) {
   return std::round(high * 100) / 100;
 }
 
-Real settleExposure(const World& world, Settings& settings) {
-  if (!settings.autoExposure) return 0;
+std::optional<Real> settleExposure(const World& world, Settings& settings) {
+  if (!settings.autoExposure) return {};
   Development development = developmentOf(settings);
   development.exposure = 0;
   Settings measuring = settings;

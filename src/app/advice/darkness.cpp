@@ -9,6 +9,7 @@
 #include "base/budget.h"
 #include "base/text.h"
 #include "formats/kind_defaults.h"
+#include "formats/ray/syntax/remarks.h"
 #include "geometry/traced.h"
 #include "image/development/development.h"
 #include "image/srgb.h"
@@ -26,7 +27,7 @@ namespace trace {
 namespace {
 
 constexpr int kCellsAcross = 64, kCellsDown = 48;
-constexpr double kDarkLevel = 2;     // a level of 255; a pixel below it is black to the eye
+constexpr double kDarkLevel = 20;    // a level of 255; a pixel below it is dark to the eye
 constexpr double kNearlyAll = 0.98;  // fraction of the picture
 constexpr double kMostSeen = 0.95;   // fraction of the cells in which there is an object
 constexpr double kWanted = 90;       // the mean level of what is seen with the cure
@@ -59,18 +60,21 @@ double levelOf(const Color& linear, const Development& development) {
   return most > 0 ? 255 * std::min(most, 1.0) : 0;  // NaN is black, too
 }
 
-/// Whether each cell shows an object.
-std::vector<char> objectsSeen(const World& world) {
+/// Whether each pixel of a picture of that size shows an object in its middle.
+std::vector<char> objectsSeen(const World& world, const Size& size = {kCellsAcross, kCellsDown}) {
   std::vector<char> seen;
   Statistics uncounted;
-  for (int y = 0; y < kCellsDown; ++y)
-    for (int x = 0; x < kCellsAcross; ++x) {
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) {
       checkBudget();
-      const Ray ray = world.camera().ray({(x + 0.5) / kCellsAcross, 1 - (y + 0.5) / kCellsDown});
+      const Ray ray = world.camera().ray({(x + 0.5) / size.width, 1 - (y + 0.5) / size.height});
       const auto found = world.closest(ray, Faces::both, uncounted);
       seen.push_back(found && world.camera().sees(found->t));
     }
   return seen;
+}
+bool anyOf(const std::vector<char>& seen) {
+  return std::any_of(seen.begin(), seen.end(), [](char is) { return is != 0; });
 }
 
 /// Light of the cells with an object: what is there anyway, and what a light adds.
@@ -139,11 +143,68 @@ struct Cure {
   std::string why, hint;
 };
 
-/// The light of the scene that adds most of what there is, and the colour that it needs.
+/// The text that gives the light that many times its strength, in the field by which its text says it. In
+/// files of the kind `Trace 1` a colour is that of the light where it arrives, so that the scene has another.
+std::string strengthText(const RayRemarks& remarks, const LightSource& source, const Color& color,
+                         double factor) {
+  const auto said = std::find_if(remarks.lights.begin(), remarks.lights.end(), [&](const auto& light) {
+    return light.place.file == source.place.file && light.place.line == source.place.line &&
+           light.place.column == source.place.column;
+  });
+  if (!remarks.isOfKind) return "color = " + rounded(color * factor) + "; in this light";
+  if (said == remarks.lights.end() || !said->says)
+    return twoDigits(factor) + " times its power or color in this light";
+  if (said->power > 0)
+    return "power = " + twoDigits(said->power * factor) + "; in place of the power of this light";
+  return "color = " + rounded(said->color.value_or(Color(1)) * factor) + "; in this light";
+}
+
+/// The mean level of the cells with an object at so many stops more.
+double meanLevel(const Picture& cells, const std::vector<char>& seen, Development development, Real stops) {
+  development.exposure += stops;
+  double sum = 0, count = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (!seen[i]) continue;
+    sum += levelOf(cells.pixels[i], development);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+/// Another exposure, if it is the cause: the settings' own darkens, or the measured one follows the light, so
+/// that no other light would help. Light of a sky or an emissive object is left as it is, too.
+std::optional<Cure> otherExposure(const Scene& scene, const Settings& settings, const Picture& cells,
+                                  const std::vector<char>& seen, std::optional<Real> measured) {
+  constexpr Real kDarkens = -1, kFarthest = 20;
+  constexpr double kLeast = 60, kMost = 130;  // mean levels with which a picture needs no other cure
+  const Real own = settings.exposure - measured.value_or(0);
+  const bool hasLamp = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                   [](const LightSource& source) { return source.light.color() != nullptr; });
+  if (!measured && hasLamp && own > kDarkens) return {};
+  const Development development = developmentOf(settings);
+  Real stops = -own;  // as if there were none
+  const double plain = meanLevel(cells, seen, development, stops);
+  if (own >= 0 || plain < kLeast || plain > kMost) {
+    Real low = 0, high = kFarthest;
+    if (meanLevel(cells, seen, development, high) < kWanted) return {};
+    for (int i = 0; i < 40; ++i)
+      (meanLevel(cells, seen, development, (low + high) / 2) < kWanted ? low : high) = (low + high) / 2;
+    stops = high;
+  }
+  const std::string wanted = toText(std::round(10 * (own + stops)) / 10 + 0.0);
+  return Cure{SourcePlace{.file = scene.file},
+              own <= kDarkens ? "; exposure = " + toText(std::round(100 * own) / 100) + " darkens it"
+                              : "; its exposure is too low",
+              "--exposure " + wanted + " brings the visible objects to a mean level of about " +
+                  toText(std::round(meanLevel(cells, seen, development, stops)))};
+}
+
+/// The light of the scene that adds most of what there is, and the strength that it needs.
 std::optional<Cure> strongerLight(const Scene& scene, const Settings& settings, const World& world,
                                   const std::vector<char>& seen) {
   constexpr std::size_t kMostTried = 8;
   const Development development = developmentOf(settings);
+  const RayRemarks remarks = remarksOn(scene);
   const std::vector<Color> base = seenWith(scene, settings, world, {}, seen);
   std::optional<Cure> best;
   double most = 0;
@@ -160,15 +221,12 @@ std::optional<Cure> strongerLight(const Scene& scene, const Settings& settings, 
     const auto factor = factorFor(lit, development);
     if (!factor || sum <= most) continue;
     most = sum;
-    const std::string field = "color = " + rounded(*color * *factor) + ";";
-    const bool far = fades(source.light);
     best = Cure{source.place,
-                far ? "; this light fades with the square of the distance (quadratic_attenuation_coeff = 1)"
+                fades(source.light) && !remarks.isOfKind
+                    ? "; this light fades with the square of the distance (quadratic_attenuation_coeff = 1)"
                     : "; this light is too weak",
-                field + " in this light brings the visible objects to a mean level of about 90" +
-                    (far ? "; constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0; keeps it from "
-                           "fading"
-                         : "")};
+                strengthText(remarks, source, *color, *factor) +
+                    " brings the visible objects to a mean level of about 90"};
   }
   return best;
 }
@@ -188,9 +246,31 @@ std::optional<Cure> outOfSolid(const Scene& scene, const World& world) {
       "move the camera's position out of it, or put a light into it"};
 }
 
-/// A light beside the eye, where nothing that is seen is in its way.
+/// A parallel light that shines the other way from what is seen.
+std::optional<Cure> turnedSun(const Scene& scene, const Settings& settings, const World& world,
+                              const std::vector<char>& seen) {
+  for (const LightSource& source : scene.lights) {
+    const Color* color = source.light.color();
+    if (source.light.type().starts != LightOrigin::parallel || !color || isBlack(*color)) continue;
+    LightSource turned = source;
+    Vec3* direction = editableValue<Vec3>(turned.light, "direction");
+    if (!direction) continue;
+    if (direction->y > 0)
+      direction->y = -direction->y;
+    else
+      *direction = -*direction;
+    const std::string text = rounded(*direction);
+    const std::vector<Color> lit = seenWith(scene, settings, world, {turned}, seen);
+    if (std::all_of(lit.begin(), lit.end(), [](const Color& c) { return isBlack(c); })) continue;
+    return Cure{source.place, "; this light shines away from the visible objects",
+                "direction = " + text + "; turns it to them"};
+  }
+  return {};
+}
+
+/// A light beside the eye, where nothing that is seen is in its way. Automatic exposure follows it.
 std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, const World& world,
-                                  const std::vector<char>& seen) {
+                                  const std::vector<char>& seen, bool measures) {
   PointLight light;
   light.position = world.camera().eye;
   light.color = Color(1);
@@ -205,18 +285,15 @@ std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, 
   for (std::size_t i = 0; i < lit.base.size(); ++i) lit.added[i] = lit.added[i] + lit.base[i] * -1;
   const auto factor = factorFor(lit, developmentOf(settings));
   if (!factor) return {};
-  const bool none = scene.lights.empty() && !shines(scene);
   const bool ray = scene.format == "ray";
-  if (!scene.kindDefaults.empty() &&
-      none)  // its light falls off from what is looked at, and exposure follows
-    return Cure{SourcePlace{.file = scene.file}, "; the scene has no light",
-                "point_light { position = " + rounded(light.position) + " } shines from the eye"};
-  return Cure{
-      SourcePlace{.file = scene.file},
-      none ? "; the scene has no light" : "; no light reaches the visible objects",
-      ray ? "point_light { position = " + rounded(light.position) + "; color = " + rounded(Color(*factor)) +
-                "; constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0; } shines from the eye"
-          : "add a light that shines where the camera looks"};
+  const std::string position = "point_light { position = " + rounded(light.position);
+  const std::string strength = "; color = " + rounded(Color(*factor)) +
+                               "; constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0;";
+  return Cure{SourcePlace{.file = scene.file},
+              scene.lights.empty() && !shines(scene) ? "; the scene has no light"
+                                                     : "; no light reaches the visible objects",
+              ray ? position + (measures ? "" : strength) + " } shines from the eye"
+                  : "add a light that shines where the camera looks"};
 }
 
 /// Where to look, if nothing is seen.
@@ -242,19 +319,23 @@ std::optional<Cure> unsampledEmitter(const Scene& scene, const World& world) {
 }
 
 std::optional<Cure> cureOf(const Scene& scene, const Settings& settings, const World& world,
-                           const std::vector<char>& seen) {
-  if (std::none_of(seen.begin(), seen.end(), [](char is) { return is != 0; })) return lookAround(scene);
-  if (auto cure = strongerLight(scene, settings, world, seen)) return cure;
+                           const Picture& cells, const std::vector<char>& seen, const RenderFacts& facts) {
+  if (!anyOf(seen)) return lookAround(scene);
   if (auto cure = unsampledEmitter(scene, world)) return cure;
+  if (auto cure = otherExposure(scene, settings, cells, seen, facts.measured)) return cure;
+  if (!facts.measured)
+    if (auto cure = strongerLight(scene, settings, world, seen)) return cure;
   if (auto cure = outOfSolid(scene, world)) return cure;
-  return lightAtTheEye(scene, settings, world, seen);
+  if (auto cure = turnedSun(scene, settings, world, seen)) return cure;
+  if (facts.whyUnlit)
+    if (const auto found = facts.whyUnlit()) return Cure{found->place, "; " + found->what, found->hint};
+  return lightAtTheEye(scene, settings, world, seen, facts.measured.has_value());
 }
 
 }  // namespace
 
-bool seesObjects(const World& world) {
-  const std::vector<char> seen = objectsSeen(world);
-  return std::any_of(seen.begin(), seen.end(), [](char is) { return is != 0; });
+bool seesObjects(const World& world, const Size& size) {
+  return anyOf(objectsSeen(world)) || anyOf(objectsSeen(world, size));
 }
 
 std::string whereToLook(const Scene& scene) {
@@ -267,7 +348,7 @@ std::string whereToLook(const Scene& scene) {
   if (all.empty()) return "";
   return scene.format == "ray"
              ? "look_at = " + rounded(all.center()) +
-                   "; in the camera, in place of viewdir, points it at the objects"
+                   "; in the camera, in place of its look_at or viewdir, points it at the objects"
              : "turn the camera to " + rounded(all.center()) + ", the middle of the objects";
 }
 
@@ -303,7 +384,7 @@ Picture tracedCells(const World& world, const Settings& settings) {
 }
 
 std::optional<Message> darkness(const Scene& scene, const Settings& settings, const World& world,
-                                const Picture& cells) {
+                                const Picture& cells, const RenderFacts& facts) {
   const Development development = developmentOf(settings);
   if (!settings.region.whole() || settings.tone == Tone::stretch ||
       (scene.objects.empty() && scene.uses.empty()) || hasTrait(settings, Trait::showsData) ||
@@ -326,7 +407,7 @@ std::optional<Message> darkness(const Scene& scene, const Settings& settings, co
       darkThere += seen[i] != 0 && dark[i] != 0;
     }
     if (there > 0 && darkThere < kMostSeen * there) return {};
-    const auto cure = cureOf(scene, settings, world, seen);
+    const auto cure = cureOf(scene, settings, world, cells, seen, facts);
     constexpr double kBlack = 1e-3;
     if (!cure && level > kBlack) return {};
     if (!cure)
@@ -335,7 +416,7 @@ std::optional<Message> darkness(const Scene& scene, const Settings& settings, co
           "`ray lint` looks for the cause, and `ray explain --pixel X,Y` follows the rays of a pixel"};
     char share[100];
     std::snprintf(share, sizeof share,
-                  "%.0f %% of the picture is darker than level 2 of 255, its mean level is %.2g",
+                  "%.0f %% of the picture is darker than level 20 of 255, its mean level is %.2g",
                   100 * all / static_cast<double>(dark.size()), level);
     return Message{Message::Severity::warning, cure->place, share + cure->why, cure->hint};
   } catch (const Error&) {  // the time is over, or the changed scene cannot be made

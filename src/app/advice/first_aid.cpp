@@ -7,6 +7,7 @@
 
 #include "app/advice/auto_exposure.h"
 #include "app/advice/darkness.h"
+#include "app/advice/missing_caustic.h"
 #include "image/development/development.h"
 #include "image/srgb.h"
 #include "math/elementary.h"
@@ -18,26 +19,31 @@ namespace {
 
 constexpr double kLargePart = 0.25;  // fraction of the picture
 constexpr double kBeyond = 0.5;      // stops: white that is white on purpose is no brighter than this
-constexpr double kOneLevel = 1.0 / 255;
-constexpr double kQuiet = 0.25, kNoisy = 4;  // levels of 255: as good as none, and what is seen at a glance
+constexpr double kOneLevel = 1.0 / 255, kWhite = 254.0 / 255;
+// Levels of 255: as good as none, what is seen at a glance, and what denoising blurs.
+constexpr double kQuiet = 0.25, kNoisy = 4, kMuch = 10;
 
-/// The fraction of the picture that is white in all channels, made so many stops darker.
-double whitePart(const Picture& cells, Development development, double darker) {
-  development.exposure -= darker;
+/// The fraction of the picture that a file shows as white in all channels. Without a tone curve white paper
+/// is as white as that on purpose.
+double whitePart(const Picture& cells, Development development) {
+  if (development.tone == Tone::clamp) development.exposure -= kBeyond;
   const auto white = std::count_if(cells.pixels.begin(), cells.pixels.end(), [&](const Color& c) {
     const Color shown = developed(c, development);
-    return shown.r >= 1 && shown.g >= 1 && shown.b >= 1;
+    return shown.r >= kWhite && shown.g >= kWhite && shown.b >= kWhite;
   });
   return static_cast<double>(white) / static_cast<double>(cells.pixels.size());
 }
 
-std::optional<Message> clipped(const Scene& scene, const Settings& settings, const Picture& cells) {
+std::optional<Message> clipped(const Scene& scene, const Settings& settings, const Picture& cells,
+                               std::optional<Real> measured) {
+  constexpr Real kHelps = 0.3;  // stops
   if (settings.tone == Tone::stretch) return {};
   Development development = developmentOf(settings);
-  const double white = whitePart(cells, development, kBeyond);
+  const double white = whitePart(cells, development);
   if (white < kLargePart) return {};
   development.exposure = 0;
-  const Real stops = std::round(10 * exposureFor(cells, development)) / 10;
+  const Real stops = std::round(10 * (exposureFor(cells, development) - measured.value_or(0))) / 10 + 0.0;
+  if (stops > settings.exposure - measured.value_or(0) - kHelps) return {};  // the light itself is seen
   char what[100], cure[100];
   std::snprintf(what, sizeof what, "%.0f %% of the picture is brighter than white and shows as white",
                 100 * white);
@@ -45,8 +51,17 @@ std::optional<Message> clipped(const Scene& scene, const Settings& settings, con
   return Message{Message::Severity::warning, {.file = scene.file}, what, cure};
 }
 
-std::optional<Message> ofOneColor(const Scene& scene, const Settings& settings, const World& world,
-                                  const Picture& cells) {
+/// A warning where no object is in the picture.
+std::optional<Message> ofNothing(const Scene& scene, const World& world, const Film& film) {
+  if (seesObjects(world, {film.width(), film.height()})) return {};
+  const std::string where = whereToLook(scene);
+  return Message{Message::Severity::warning,
+                 {.file = scene.file},
+                 "no object is in the picture",
+                 where.empty() ? "`ray explain --pixel X,Y` says what a pixel shows" : where};
+}
+
+std::optional<Message> ofOneColor(const Scene& scene, const Settings& settings, const Picture& cells) {
   const Development development = developmentOf(settings);
   const Color first = developed(cells.pixels.front(), development);
   for (const Color& c : cells.pixels) {
@@ -55,12 +70,10 @@ std::optional<Message> ofOneColor(const Scene& scene, const Settings& settings, 
           std::abs(shown.b - first.b) < kOneLevel))
       return {};
   }
-  const bool sees = seesObjects(world);
-  const std::string where = sees ? "" : whereToLook(scene);
   return Message{Message::Severity::warning,
                  {.file = scene.file},
-                 sees ? "the whole picture has one colour" : "no object is in the picture",
-                 where.empty() ? "`ray explain --pixel X,Y` says what a pixel shows" : where};
+                 "the whole picture has one colour",
+                 "`ray explain --pixel X,Y` says what a pixel shows"};
 }
 
 /// The share of pixels that are noisier than the target, and the samples with which nine of ten reach it; ""
@@ -79,7 +92,8 @@ std::string missedTargetText(const Settings& settings, const Film& film) {
   if (10 * missed <= needed.size()) return "";
   const auto ninth = needed.begin() + 9 * std::ssize(needed) / 10;  // edges are the rest, and no noise
   std::nth_element(needed.begin(), ninth, needed.end());
-  const double samples = math::exp2(std::ceil(math::log2(*ninth)));
+  constexpr double kSure = 1.25;  // the errors are estimates themselves
+  const double samples = math::exp2(std::ceil(math::log2(kSure * *ninth)));
   char text[200], cure[60] = "";
   if (samples <= kMost) std::snprintf(cure, sizeof cure, "; --spp %.0f brings nine of ten there", samples);
   std::snprintf(text, sizeof text, "; noisy: %s%.0f %% of the pixels miss the noise target of %.2g levels%s",
@@ -92,16 +106,17 @@ std::string missedTargetText(const Settings& settings, const Film& film) {
 }  // namespace
 
 std::optional<Message> firstAid(const Scene& scene, const Settings& settings, const World& world,
-                                const Film& film) {
+                                const Film& film, const RenderFacts& facts) {
   const Picture cells = cellsOf(film);
-  if (auto dark = darkness(scene, settings, world, cells)) return dark;
+  if (auto dark = darkness(scene, settings, world, cells, facts)) return dark;
   const bool isPart = !settings.region.whole() || settings.unweighted || settings.lightVertices >= 0 ||
                       settings.cameraVertices >= 0;
   if (isPart || (scene.objects.empty() && scene.uses.empty()) || hasTrait(settings, Trait::showsData))
     return {};
   try {
-    if (auto white = clipped(scene, settings, cells)) return white;
-    return ofOneColor(scene, settings, world, cells);
+    if (auto nothing = ofNothing(scene, world, film)) return nothing;
+    if (auto white = clipped(scene, settings, cells, facts.measured)) return white;
+    return ofOneColor(scene, settings, cells);
   } catch (const Error&) {  // the time is over
     return {};
   }
@@ -126,24 +141,29 @@ std::optional<PictureError> estimatedError(const Settings& settings, const Film&
 std::string noiseText(const Settings& settings, const Film& film) {
   if (!hasTrait(settings, Trait::meetsLamps) || film.corners()) return "";
   if (film.noiseTarget() > 0) return missedTargetText(settings, film);
-  if (settings.denoise || film.takesSplats()) return "";
+  if (film.takesSplats()) return "";
   std::vector<double> errors;
-  for (const Color& error : film.errors().pixels)
+  double sum = 0, count = 0;
+  for (const Color& error : film.errors().pixels) {
+    sum += std::min(error.r, 1.0);
+    ++count;
     if (255 * error.r > kQuiet) errors.push_back(error.r);
+  }
   if (errors.empty()) return "";
   const auto middle = errors.begin() + std::ssize(errors) / 2;  // edges are few, and no noise
   std::nth_element(errors.begin(), middle, errors.end());
-  const double levels = 255 * *middle;
-  if (!(levels >= kNoisy)) return "";
-  char text[120];
-  std::snprintf(
-      text, sizeof text,
-      "; noisy: its estimated error is %.0f levels of 255, which --spp %d halves and --denoise hides", levels,
-      4 * samplesOf(settings));
+  // Specks are few too, but large: the mean has them.
+  const double levels = 255 * std::max(std::min(*middle, 1.0), sum / count);
+  if (!(levels >= (settings.denoise ? kMuch : kNoisy))) return "";
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "; noisy: %sits estimated error is %.0f levels of 255, which --spp %d halves%s",
+                settings.denoise ? "before denoising, " : "", levels, 4 * samplesOf(settings),
+                settings.denoise ? "" : " and --denoise hides");
   return text;
 }
 
-std::string fireflyText(const Settings& settings, const Film& film) {
+std::string fireflyText(const Settings& settings, const World& world, const Film& film) {
   constexpr double kStandsOut = 64, kUnsure = 24;  // levels of 255: above all neighbours, and of error
   constexpr std::size_t kFew = 4, kOneIn = 20000;
   if (settings.fireflyLimit > 0 || !hasTrait(settings, Trait::meetsLamps)) return "";
@@ -163,8 +183,12 @@ std::string fireflyText(const Settings& settings, const Film& film) {
   for (int y = 1; y + 1 < levels.height; ++y)
     for (int x = 1; x + 1 < levels.width; ++x) count += standsOut(x, y);
   if (count < std::max(kFew, levels.pixels.size() / kOneIn)) return "";
-  return "; " + std::to_string(count) +
-         " fireflies, pixels far brighter than all around them, which --firefly-limit 8 removes";
+  bool gathers = false;
+  for (std::uint32_t i = 0; i < world.objectCount() && !gathers; ++i) gathers = gathersLight(world, i);
+  const bool mayBeCaustic = gathers && hasTrait(settings, Trait::bounces);
+  return "; " + std::to_string(count) + " fireflies, pixels far brighter than all around them, " +
+         (mayBeCaustic ? "of light that glass or mirrors gather: --integrator bdpt finds it"
+                       : "which --firefly-limit 8 removes");
 }
 
 }  // namespace trace

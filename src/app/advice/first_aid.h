@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "app/advice/darkness.h"
 #include "base/error.h"
 #include "image/film/film.h"
 #include "render/world/world.h"
@@ -16,7 +17,7 @@ namespace trace {
 /// A warning if the picture is nearly black (app/advice/darkness.h), if a large part of it is brighter than
 /// a file can show, or if it has one colour; nothing of pictures that show data, or a part only.
 std::optional<Message> firstAid(const Scene& scene, const Settings& settings, const World& world,
-                                const Film& film);
+                                const Film& film, const RenderFacts& facts = {});
 
 /// The estimated error of the pixels, tone-mapped and before denoising: the standard error of their samples'
 /// mean, in levels of 255.
@@ -33,7 +34,8 @@ std::optional<PictureError> estimatedError(const Settings& settings, const Film&
 std::string noiseText(const Settings& settings, const Film& film);
 
 /// How many pixels a few very bright paths make stand out (fireflies), with a cure, to follow the last line
-/// of a render; "" if there are hardly any, if that is not known, or if they are limited.
-std::string fireflyText(const Settings& settings, const Film& film);
+/// of a render: an integrator where mirrors or glass gather the light, of which the limit would take a
+/// caustic away. "" if there are hardly any, if that is not known, or if they are limited.
+std::string fireflyText(const Settings& settings, const World& world, const Film& film);
 
 }  // namespace trace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,7 @@ struct LintScene {
   Survey survey;
   std::vector<std::uint32_t> aroundCamera{};  ///< the objects that enclose it
   RayRemarks remarks{};                       ///< on the text of the file
+  std::optional<Real> measured{};             ///< stops that automatic exposure added
 };
 
 namespace lint_checks {

@@ -19,8 +19,6 @@
 namespace trace::lint_checks {
 namespace {
 
-constexpr Real kHalfALevel = 0.5 / 255;
-
 /// Where a lamp stands; null for panels and for what is far away.
 const Vec3* positionOf(const Light& light) {
   return light.type().starts == LightOrigin::ball ? light.position() : nullptr;
@@ -73,19 +71,20 @@ void lightBehindGlass(const LintScene& s, Findings& findings) {
 
 void lightTooWeak(const LintScene& s, Findings& findings) {
   constexpr int kFew = 20;
+  const Real level = whiteOf(s.settings) / 255, weakest = level / 2;
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
     const Survey::Lamp& lamp = s.survey.lights[i];
     const LightSource& source = s.scene.lights[i];
     const Real color = maxComponent(lightColor(source.light));
     if (color == 0) continue;  // it is switched off
-    if (lamp.places < kFew || lamp.strongest >= kHalfALevel) continue;
+    if (lamp.places < kFew || lamp.strongest >= weakest) continue;
     const Vec3* position = positionOf(source.light);
     // It may be there for what is near it and not in the picture.
-    if (position && strongestAround(s.world, source.light, *position) >= kHalfALevel) continue;
-    const bool fades = position && color >= kHalfALevel;
+    if (position && strongestAround(s.world, source.light, *position) >= weakest) continue;
+    const bool fades = position && color >= weakest;
     warn(findings, "light-too-weak", source.place,
          "the light is too weak to see: where it is strongest, " + toText(roundedTo(lamp.strongest)) +
-             " arrives, and a level of the picture is " + toText(roundedTo(1 / 255.0)) +
+             " arrives, and a level of the picture is " + toText(roundedTo(level)) +
              (fades ? "; it falls off with the distance" : ""),
          fades ? "constant_attenuation_coeff = 1; linear_attenuation_coeff = 0; quadratic_attenuation_coeff "
                  "= 0; switch the falloff off; or give it a stronger color"

@@ -7,7 +7,6 @@
 #include "app/lint/checks.h"
 #include "app/session/render_warnings.h"
 #include "base/budget.h"
-#include "base/files/file.h"
 #include "base/text.h"
 #include "formats/ray/read/material.h"
 #include "geometry/mesh/mesh_repair.h"
@@ -56,17 +55,6 @@ bool isOfGlass(const Message& message) { return message.what.starts_with(rayfile
 namespace {
 
 using namespace lint_checks;
-
-/// A scene of another format, or one that has no file any more, tells nothing but its name.
-RayRemarks remarksOn(const Scene& scene) {
-  const RayRemarks none{.degrees = {}, .unused = {}, .camera = {.file = scene.file}};
-  if (scene.format != "ray" || !isOrdinaryFile(scene.file)) return none;  // a pipe is empty by now
-  try {
-    return trace::remarksOn(scene.file, readFile(scene.file));
-  } catch (const Error&) {
-    return none;
-  }
-}
 
 void degrees(const LintScene& s, Findings& findings) {
   if (s.remarks.degrees.empty()) return;
@@ -138,16 +126,17 @@ std::span<const LintCheck> lintChecks() {
 }
 
 std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, const World& world,
-                              const std::vector<Message>& warnings) {
+                              const std::vector<Message>& warnings, std::optional<Real> measured) {
   if (!scene.uses.empty()) {  // some of the placed objects stand for all
     constexpr std::size_t kMostChecked = 1000;
     const Scene some = firstCopies(scene, kMostChecked);
     Messages known;
-    return lint(some, settings, compile(some, settings, known), warnings);
+    return lint(some, settings, compile(some, settings, known), warnings, measured);
   }
   LintScene s{scene, settings, world, warnings, survey(scene, settings, world)};
   s.aroundCamera = objectsAround(world, world.camera().eye);
   s.remarks = remarksOn(scene);
+  s.measured = measured;
   std::vector<LintFinding> findings;
   for (const Message& message : warnings)
     if (!isOfArea(message) && !isOfGlass(message)) findings.push_back({"reading", message});
@@ -169,6 +158,15 @@ std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, cons
         }))
       once.push_back(std::move(finding));
   return once;
+}
+
+std::optional<Message> whyUnlit(const Scene& scene, const Settings& settings, const World& world) {
+  constexpr std::string_view kCauses[] = {"light-inside", "light-blocked", "light-cut", "light-faces-away",
+                                          "light-reaches-nothing"};
+  for (const LintFinding& finding : lint(scene, settings, world, {}))
+    if (std::find(std::begin(kCauses), std::end(kCauses), finding.check) != std::end(kCauses))
+      return finding.message;
+  return {};
 }
 
 }  // namespace trace

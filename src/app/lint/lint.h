@@ -3,6 +3,7 @@
 // Geometry is asked by tracing our own rays, in directions and pixels that are always the same.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -31,8 +32,11 @@ std::span<const LintCheck> lintChecks();
 
 /// The warnings of reading and compiling the scene, and of a render, each as the check `reading` if no
 /// other check is about it, then the findings of the checks in their order. `world` was compiled from the
-/// scene with the settings.
+/// scene with the settings, whose exposure is settled (app/advice/auto_exposure.h): by `measured` stops.
 std::vector<LintFinding> lint(const Scene& scene, const Settings& settings, const World& world,
-                              const std::vector<Message>& warnings);
+                              const std::vector<Message>& warnings, std::optional<Real> measured = {});
+
+/// The first finding on lights that do not reach what is seen, for a scene without any light there.
+std::optional<Message> whyUnlit(const Scene& scene, const Settings& settings, const World& world);
 
 }  // namespace trace

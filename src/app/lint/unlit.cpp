@@ -111,7 +111,8 @@ void blackPicture(const LintScene& s, Findings& findings) {
                                           "unlit",        "camera-looks-away", "light-reaches-nothing"};
   for (const LintFinding& finding : findings)
     if (std::find(std::begin(kCauses), std::end(kCauses), finding.check) != std::end(kCauses)) return;
-  if (const auto found = darkness(s.scene, s.settings, s.world, tracedCells(s.world, s.settings)))
+  if (const auto found =
+          darkness(s.scene, s.settings, s.world, tracedCells(s.world, s.settings), {.measured = s.measured}))
     findings.push_back({"black-picture", *found});
 }
 

@@ -1,5 +1,6 @@
 #include "app/session/denoising.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/budget.h"
@@ -23,8 +24,8 @@ std::optional<Picture> denoised(const Film& film, const Settings& settings, Job&
   const auto layer = [&](std::string_view name) {
     return film.layer(static_cast<std::size_t>(layerOf(settings, name)));
   };
-  Picture result =
-      withoutNoise(halves, {layer("guide albedo"), layer("guide normal"), layer("guide nearness")}, settings.threads, job);
+  Picture result = withoutNoise(
+      halves, {layer("guide albedo"), layer("guide normal"), layer("guide nearness")}, settings.threads, job);
   if (job.cancel) return {};
   const Picture plain = film.picture();
   for (std::size_t i = 0; i < result.pixels.size(); ++i)
@@ -53,6 +54,20 @@ double meanChange(const Picture& change) {
     sum += std::abs(luminanceOf(c));
   }
   return change.pixels.empty() ? 0 : 255 * sum / static_cast<double>(change.pixels.size());
+}
+
+double shownChange(const Picture& before, const Picture& after, const Development& development) {
+  const auto level = [&](const Color& linear) {
+    const Color shown = developed(linear, development);
+    return luminanceOf(
+        {std::clamp(shown.r, 0.0, 1.0), std::clamp(shown.g, 0.0, 1.0), std::clamp(shown.b, 0.0, 1.0)});
+  };
+  double sum = 0;
+  for (std::size_t i = 0; i < before.pixels.size(); ++i) {
+    checkBudget();
+    sum += std::abs(level(after.pixels[i]) - level(before.pixels[i]));
+  }
+  return before.pixels.empty() ? 0 : 255 * sum / static_cast<double>(before.pixels.size());
 }
 
 }  // namespace trace

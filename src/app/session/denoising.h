@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "image/development/development.h"
 #include "image/film/film.h"
 #include "scene/settings.h"
 
@@ -23,5 +24,7 @@ Picture pictureOfFilm(const Film& film, const Settings& settings);
 Picture change(const Picture& before, const Picture& after);
 /// Its size on the average of the pixels, as luminance in levels of 255.
 double meanChange(const Picture& change);
+/// The mean difference of the levels that a file shows: after the tone curve, from black to white.
+double shownChange(const Picture& before, const Picture& after, const Development& development);
 
 }  // namespace trace

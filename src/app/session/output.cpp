@@ -234,7 +234,7 @@ std::string PictureFiles::write(const Film& film, const Settings& wanted, const 
   const Picture rendered = film.picture();
   const std::optional<Picture> without = denoised(film, settings);
   const Picture& shown = without ? *without : rendered;
-  change_ = without ? std::optional(meanChange(change(rendered, shown))) : std::nullopt;
+  change_ = without ? std::optional(shownChange(rendered, shown, developmentOf(settings))) : std::nullopt;
   for (const Output& output : outputs(place, settings)) {
     Metadata words = wordsOf(output, metadata);
     if (!whole)

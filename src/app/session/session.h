@@ -109,12 +109,15 @@ class Session {
   std::string save(const std::string& path);
 
   /// A warning if the finished picture is not worth looking at, with a cure (app/advice/first_aid.h).
-  std::optional<Message> firstAid() const { return trace::firstAid(scene_, settings_, *world_, *film_); }
+  /// `whyUnlit` is asked where no light reaches what is seen.
+  std::optional<Message> firstAid(std::function<std::optional<Message>()> whyUnlit = {}) const {
+    return trace::firstAid(scene_, settings_, *world_, *film_, {measuredExposure_, std::move(whyUnlit)});
+  }
 
   const std::vector<Phase>& phases() const { return phases_; }
 
   /// The exposure that automatic exposure added to the settings' own, in stops; after build().
-  Real measuredExposure() const { return measuredExposure_; }
+  Real measuredExposure() const { return measuredExposure_.value_or(0); }
 
  private:
   void compileWorld(const Session* before);
@@ -139,7 +142,7 @@ class Session {
   std::unique_ptr<Film> film_;
   Job job_;
   std::vector<Phase> phases_;
-  Real measuredExposure_ = 0;
+  std::optional<Real> measuredExposure_;  // nothing unless the settings asked
 };
 
 /// Bytes of memory that a scene may take: what --max-memory says, or half of what the machine has.

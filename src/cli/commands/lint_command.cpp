@@ -61,13 +61,13 @@ int lintCommand(const Arguments& arguments, const Console& console) {
   const World world = compile(session.scene(), session.settings(), messages);
   warnOfSettings(session.scene(), session.settings(), world, messages);
   Settings settings = session.settings();
-  const Real exposure = settleExposure(world, settings);
-  const std::vector<LintFinding> findings = lint(session.scene(), settings, world, messages.all());
+  const std::optional<Real> exposure = settleExposure(world, settings);
+  const std::vector<LintFinding> findings = lint(session.scene(), settings, world, messages.all(), exposure);
   const std::string& scene = session.scene().file;
   const std::string text = json ? lintJson(scene, findings) : lintText(scene, findings);
   const bool choosesQuality = std::any_of(arguments.choices.begin(), arguments.choices.end(),
                                           [](const Choice& choice) { return choice.option == "quality"; });
-  if (const std::string chosen = chosenText(session.scene(), settings, exposure); !chosen.empty())
+  if (const std::string chosen = chosenText(session.scene(), settings, exposure.value_or(0)); !chosen.empty())
     console.line(LogLevel::info,
                  "note: " + chosen +
                      (choosesQuality || settings.quality == Quality::none

@@ -156,7 +156,7 @@ int mergeCommand(const Arguments& arguments, const Console& console) {
                   identities[at], {part, render.parts});
         work.reached(part + 1);
       }
-      aid = session.firstAid();
+      aid = session.firstAid(whyUnlitIn(session));
     } catch (const StoppedByUser&) {
       console.last(false, "stopped by the user: " +
                               (written.empty() ? "nothing written" : "wrote pictures up to " + written));

@@ -158,7 +158,7 @@ int renderCommand(const Arguments& arguments, const Console& console) {
   reportLosses(session, result, console);
 
   std::optional<Message> aid;
-  if (result.end == End::finished) aid = session.firstAid();
+  if (result.end == End::finished) aid = session.firstAid(whyUnlitIn(session));
   if (session.job().done == 0) {  // a black picture is worth less than what the file may hold now
     console.line(LogLevel::error, whyStopped(result) + "nothing written, for nothing was finished");
     return exitCode(result);
@@ -180,7 +180,8 @@ int renderCommand(const Arguments& arguments, const Console& console) {
     cleaned = "; --denoise changed it by " + numberText(*change) + " levels on the average";
   std::string noise;
   if (result.end == End::finished && !arguments.quick)
-    noise = noiseText(session.settings(), session.film()) + fireflyText(session.settings(), session.film());
+    noise = noiseText(session.settings(), session.film()) +
+            fireflyText(session.settings(), session.world(), session.film());
   std::string chosen = chosenText(session.scene(), session.settings(), session.measuredExposure());
   if (!chosen.empty()) chosen.insert(0, "; ");
   const std::string passes = saved.finish == LastSteps::all ? andPasses(session.settings()) : "";

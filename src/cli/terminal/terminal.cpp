@@ -24,6 +24,9 @@ std::atomic<std::int64_t> gFirstStop{0};  // nanoseconds of the steady clock
 enum class Phase { starting, preparing, rendering, finishing };
 std::atomic<Phase> gPhase{Phase::starting};
 std::atomic<bool> gAsked{false};  // to stop, while preparing or finishing
+constexpr const char* kNothingWritten = "\nnothing written: stopped at once by the user\n";
+std::atomic<const char*> gLastLine{kNothingWritten};
+static_assert(std::atomic<const char*>::is_always_lock_free);
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<Phase>::is_always_lock_free);
 
 // `timeout` and others signal a program and then its group: that is one wish to stop.
@@ -40,7 +43,7 @@ void onInterrupt(os::Interrupt interrupt) {
   const bool isFirst = gPhase != Phase::starting && gStops.fetch_add(1) == 0;
   if (isFirst) gFirstStop = now;
   if (!isFirst && gPhase != Phase::starting && now - gFirstStop < kOneWish) return;
-  if (!isFirst) os::endAtOnce("\nnothing written: stopped at once by the user\n", kStoppedAtOnce);
+  if (!isFirst) os::endAtOnce(gLastLine.load(), kStoppedAtOnce);
   gAsked = gPhase == Phase::preparing || gPhase == Phase::finishing;
   post('s');  // also for a render that begins right now
 }
@@ -82,6 +85,7 @@ Signals::Signals() : handler_(onInterrupt) { gBell = &bell_; }
 
 Signals::~Signals() {
   gBell = nullptr;
+  gLastLine = kNothingWritten;
   gAsked = false;
   gStops = 0;
   gPhase = Phase::starting;
@@ -97,6 +101,11 @@ void Signals::renderingBegins() {
 void Signals::finishingBegins(bool stopped) {
   gPhase = Phase::finishing;
   gAsked = !stopped && gStops > 0;
+}
+
+void Signals::lastLineIs(const std::string& line) {
+  lines_.push_back("\n" + line + "\n");
+  gLastLine = lines_.back().c_str();
 }
 
 void Signals::look() {

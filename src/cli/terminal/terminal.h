@@ -1,6 +1,9 @@
 // The terminal that the program draws on, and how a person stops the program there.
 #pragma once
 
+#include <list>
+#include <string>
+
 #include "base/os/interrupts.h"
 
 namespace trace::cli {
@@ -39,6 +42,8 @@ class Signals {
   void renderingBegins();
   /// `stopped`: what was to be stopped so far has ended. If not, a stop that nobody took counts now.
   void finishingBegins(bool stopped);
+  /// The last line of a stop at once from now on, in place of "nothing written".
+  void lastLineIs(const std::string& line);
   /// For the budget of a command, whose work then ends by itself: throws StoppedByUser if that is asked for
   /// while it prepares or finishes. From any thread.
   static void look();
@@ -51,6 +56,7 @@ class Signals {
   void wake();
 
  private:
+  std::list<std::string> lines_;  // the handler may be reading an earlier one
   os::Bell bell_;
   os::InterruptHandler handler_;
 };

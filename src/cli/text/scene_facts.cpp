@@ -86,7 +86,8 @@ std::string chosenText(const Scene& scene, const Settings& settings, Real measur
   if (measuredExposure != 0)
     add("exposure " + toText(measuredExposure) + " stops" +
         (given == 0 ? ""
-                    : ", with --exposure " + toText(given) + " in all " + toText(given + measuredExposure)));
+                    : ", with --exposure " + toText(given) + " in all " +
+                          toText(std::round(100 * (given + measuredExposure)) / 100)));
   const std::string quality = qualityText(settings);
   return chosen + (chosen.empty() || quality.empty() ? "" : "; ") + quality;
 }

@@ -75,6 +75,7 @@ Value Evaluator::eval(std::uint32_t index, const Scoped& scope) {
       const Found found = findCalled(name, scope);
       if (found.binding && isTuple && !isDefinition(*found.binding)) return called(index, found, scope);
       if (!found.binding && isTuple && findFunction(name)) return builtIn(index, *findFunction(name), scope);
+      if (!found.binding && isTuple) refuseUnknownFunction(index, scope);
       return Tree{index, scope};
     }
     case Kind::block: return Tree{index, scope};
@@ -82,6 +83,29 @@ Value Evaluator::eval(std::uint32_t index, const Scoped& scope) {
       fail(index, "expected a value, found " + describe(at(index)),
            kind(index) == Kind::entry ? "== compares two values; name = value is a field" : "");
   }
+}
+
+void Evaluator::refuseUnknownFunction(std::uint32_t call, const Scoped& scope) const {
+  const std::string_view name = wordAt(call + 1);
+  if (!degrees_ || beginsObject(name)) return;
+  const std::vector<std::uint32_t> arguments = children(call + 2);
+  const bool areNumbers = std::all_of(arguments.begin(), arguments.end(), [&](std::uint32_t argument) {
+    return kind(argument) == Kind::number || kind(argument) == Kind::expression;
+  });
+  if (!areNumbers || arguments.empty()) return;  // a texture, or what else a file may call
+  std::vector<std::string_view> known;
+  for (const Function& function : functions()) known.push_back(function.name);
+  for (Scoped outer = scope; outer; outer = outer->parent)
+    for (const Binding& binding : outer->bindings) known.push_back(binding.name);
+  const std::string hint = didYouMean(name, known);
+  fail(call, "no function is called \"" + std::string(name) + "\"",
+       hint.empty() ? "let " + std::string(name) + "(a) = 2 * a makes one" : hint);
+}
+
+const List& Evaluator::needElements(const Value& value, List& letters, std::uint32_t source) const {
+  const List* list = elementsOf(value, letters);
+  if (!list) fail(source, "expected a range such as 0..9 or a list, found " + shown(value));
+  return *list;
 }
 
 Value Evaluator::grouped(std::uint32_t tuple, const Scoped& scope) {
@@ -195,12 +219,13 @@ void Evaluator::addItems(std::uint32_t parent, const Scoped& scope, List& list) 
   for (std::uint32_t child = parent + 1; child < after(parent); child = after(child)) {
     if (kind(child) == Kind::loop) {
       const std::uint32_t name = child + 1, source = name + 1, body = after(source);
-      const Value all = eval(source, scope);
-      if (!all.list()) fail(source, "expected a range such as 0..9 or a list, found " + shown(all));
+      const Value values = eval(source, scope);
+      List letters;
+      const List& all = needElements(values, letters, source);
       const std::uint64_t seed = seedAt(child, *scope);
-      for (std::size_t i = 0; i < all.list()->size(); ++i) {
+      for (std::size_t i = 0; i < all.size(); ++i) {
         const auto round = std::make_shared<Scope>(Scope{scope, mixBits(seed ^ i), body});
-        round->bindings.push_back({at(name).text(), child, (*all.list())[i]});
+        round->bindings.push_back({at(name).text(), child, all[i]});
         declare(body, *round);
         addItems(body, round, list);
       }

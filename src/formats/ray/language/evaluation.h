@@ -34,6 +34,8 @@ class Evaluator : protected Names {
                                const Scoped& home, std::uint32_t body);
   /// A call with the values of its parameters, for messages.
   static std::string callText(std::string_view name, const Scope& own);
+  /// The elements that a loop goes through; fails at its `source` if there are none.
+  const List& needElements(const Value& value, List& letters, std::uint32_t source) const;
   bool isGrouping(std::uint32_t tuple) const {
     return tuple + 1 < after(tuple) && after(tuple + 1) == after(tuple) &&
            kind(tuple + 1) == Kind::expression;
@@ -47,6 +49,8 @@ class Evaluator : protected Names {
   Value listOf(std::uint32_t tuple, const Scoped& scope);
   void addItems(std::uint32_t parent, const Scoped& scope, List& list);
   void addBranch(std::uint32_t statement, const Scoped& scope, List& list);
+  /// Fails for a call of numbers that nothing is called.
+  void refuseUnknownFunction(std::uint32_t call, const Scoped& scope) const;
   Value builtIn(std::uint32_t call, const Function& function, const Scoped& scope);
 
   /// Operands and operators of an expression that are still to come.

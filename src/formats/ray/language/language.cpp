@@ -214,18 +214,19 @@ class Expander : Evaluator {
   void loop(std::uint32_t statement, const Scoped& scope, bool isList) {
     const std::uint32_t name = statement + 1, source = name + 1, body = after(source);
     checkName(name, Named::value);
-    const Value all = eval(source, scope);
-    if (!all.list()) fail(source, "expected a range such as 0..9 or a list, found " + shown(all));
+    const Value values = eval(source, scope);
+    List letters;
+    const List& all = needElements(values, letters, source);
     const std::uint64_t seed = seedAt(statement, *scope);
-    turns_[statement] += all.list()->size();
+    turns_[statement] += all.size();
     const std::size_t before = result_.size();
-    for (std::size_t i = 0; i < all.list()->size(); ++i) {
-      const Value& value = (*all.list())[i];
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Value& value = all[i];
       const auto round = std::make_shared<Scope>(Scope{scope, mixBits(seed ^ i), body});
       round->bindings.push_back({at(name).text(), statement, value});
       const FrameScope frame(*this, statement, std::string(at(name).text()) + " = " + shown(value));
       block(body, round, isList);
-      refuseFlood(i + 1, all.list()->size(), result_.size() - before);
+      refuseFlood(i + 1, all.size(), result_.size() - before);
     }
   }
   /// A loop that will make far too much, as its first turns tell: its last ones might make half as much.

@@ -86,6 +86,8 @@ class Names {
   Found findCalled(std::string_view name, const Scoped& from) const {
     return objects_.contains(name) ? Found{} : find(name, from);
   }
+  /// The word means an object or the like with brackets behind it.
+  bool beginsObject(std::string_view word) const { return objects_.contains(word); }
   bool isFunctionLet(const Binding& binding) const {
     return !binding.value && kind(binding.node) == Kind::let && kind(binding.node + 2) == Kind::tuple &&
            after(binding.node + 2) < after(binding.node);

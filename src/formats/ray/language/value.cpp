@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/names.h"
 #include "base/text.h"
 #include "image/srgb.h"
 #include "math/elementary.h"
@@ -179,10 +180,12 @@ constexpr std::array kFunctions{
                if (!(length > 0)) refuse("a vector of length 0 has no direction");
                return vectorOf(v[0] / length, v[1] / length, v[2] / length);
              }},
-    Function{"count", "list", 1, 1, "how many elements a list has",
+    Function{"count", "list", 1, 1, "how many elements a list has, or letters a text",
              [](Arguments a, std::uint64_t&) -> Value {
-               if (!a[0].list()) refuse("expected a list, found " + shown(a[0]));
-               return static_cast<double>(a[0].list()->size());
+               List letters;
+               const List* list = elementsOf(a[0], letters);
+               if (!list) refuse("expected a list, found " + shown(a[0]));
+               return static_cast<double>(list->size());
              }},
     Function{"steps", "a, b, n", 3, 3, "n values from a to b, evenly spaced", steps},
     Function{"random", "[a, b]", 0, 2,
@@ -256,15 +259,27 @@ Value component(const Value& of, char name) {
   return (*of.list())[index];
 }
 
+const List* elementsOf(const Value& value, List& letters) {
+  if (!value.text()) return value.list();
+  for (std::string_view rest = *value.text(); !rest.empty();) {
+    const std::size_t bytes = std::max<std::size_t>(utf8Letter(rest).bytes, 1);
+    letters.push_back(std::string(rest.substr(0, bytes)));
+    rest.remove_prefix(bytes);
+  }
+  return &letters;
+}
+
 Value element(const Value& of, const Value& index) {
-  if (!of.list()) refuse("expected a list before [ ], found " + shown(of));
+  List letters;
+  const List* list = elementsOf(of, letters);
+  if (!list) refuse("expected a list or text before [ ], found " + shown(of));
   const double at = needNumber(index, "in [ ]");
-  if (!(at >= 0 && at < static_cast<double>(of.list()->size())) || at != std::floor(at))
-    refuse((of.list()->empty() ? std::string("expected a list that is not empty before [ ], found ")
-                               : "expected a whole number from 0 to " +
-                                     std::to_string(of.list()->size() - 1) + " in [ ], found ") +
+  if (!(at >= 0 && at < static_cast<double>(list->size())) || at != std::floor(at))
+    refuse((list->empty() ? "expected a list that is not empty before [ ], found "
+                          : "expected a whole number from 0 to " + std::to_string(list->size() - 1) +
+                                " in [ ], found ") +
            shown(index));
-  return (*of.list())[static_cast<std::size_t>(at)];
+  return (*list)[static_cast<std::size_t>(at)];
 }
 
 std::span<const Function> functions() { return kFunctions; }

@@ -51,7 +51,9 @@ Value operate(Op op, const Value& a, const Value& b);
 Value operate(Op op, const Value& a);
 /// The component behind a dot. Throws ValueError.
 Value component(const Value& of, char name);
-/// The element of that number, from 0. Throws ValueError.
+/// The elements of a list, or the letters of a text, which are kept in `letters`; null of another value.
+const List* elementsOf(const Value& value, List& letters);
+/// The element or letter of that number, from 0. Throws ValueError.
 Value element(const Value& of, const Value& index);
 /// Throws ValueError, which says what it is `for`, if the value is something else.
 double needNumber(const Value& value, std::string_view what);

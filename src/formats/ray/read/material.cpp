@@ -9,6 +9,7 @@
 
 #include "base/files/file.h"
 #include "base/text.h"
+#include "formats/model.h"
 #include "formats/ray/read/fields.h"
 #include "shading/library.h"
 #include "shading/textures/image_map.h"
@@ -66,6 +67,13 @@ bool isNormalMap(const Item& field) {
   if (value.is(Kind::word)) return true;
   if (!value.is(Kind::call) || value.key() != "map" || !value.value().is(Kind::tuple)) return false;
   return value.value().count() == 1 && (*value.value().begin()).is(Kind::word);
+}
+
+/// The block says something of how it looks.
+bool saysLooks(const Item& block) {
+  for (const Item item : block)
+    if (!item.keyed() || (item.key() != "name" && item.key() != "sides")) return true;
+  return false;
 }
 
 /// `reflective = specular`.
@@ -164,6 +172,7 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
     findings_.noteShininess(*block.shininess, phong->shininess);
   markUsed(inherited.name);
   NotedMaterial result = noted(std::move(block.material), value, inherited);
+  result.given = inherited.given || saysLooks(value);
   if (result.name.empty()) return result;
   Named named{result, findings_.syntax().shortPlace(value.offset())};
   if (const auto before = named_.find(result.name); before != named_.end()) {
@@ -404,8 +413,22 @@ std::vector<UnusedMaterial> Materials::unused() const {
   return all;
 }
 
+NotedMaterial Materials::completed(NotedMaterial material) const {
+  if (material.given || !findings_.isOfKind()) return material;
+  makePlain(material);
+  material.given = true;
+  return material;
+}
+
 std::uint32_t Materials::index(const NotedMaterial& material) {
-  const std::uint32_t index = this->index(static_cast<const Material&>(material));
+  std::uint32_t index;
+  if (material.given || !findings_.isOfKind()) {
+    index = this->index(static_cast<const Material&>(material));
+  } else {
+    const auto [known, isNew] = leftOut_.try_emplace({material.name, material.sides});
+    if (isNew) known->second = this->index(static_cast<const Material&>(completed(material)));
+    index = known->second;
+  }
   if (Notes* notes = findings_.notes(); notes && material.block != NotedMaterial::kNoBlock)
     notes->blocks[material.block].index = index;
   return index;

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "formats/ray/read/texture.h"
@@ -40,7 +41,10 @@ class Materials {
   /// stands for. Reports what is wrong, and returns what could be read.
   NotedMaterial read(const Item& value, const NotedMaterial& inherited);
 
-  /// Its index in Scene::materials; equal materials share one.
+  /// The material that is rendered: a plain surface where a file of the kind `Trace 1` leaves the looks out.
+  NotedMaterial completed(NotedMaterial material) const;
+
+  /// Its index in Scene::materials, completed; equal materials share one.
   std::uint32_t index(const Material& material);
   std::uint32_t index(const NotedMaterial& material);
 
@@ -72,6 +76,7 @@ class Materials {
   std::map<std::string, Named, std::less<>> named_;
   std::unordered_multimap<std::size_t, std::uint32_t> byHash_;
   std::optional<std::uint32_t> last_;  ///< the index that was asked for last
+  std::map<std::pair<std::string, ShadedSides>, std::uint32_t> leftOut_;  ///< indices of completed materials
 };
 
 }  // namespace trace::rayfile

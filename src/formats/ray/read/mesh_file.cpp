@@ -32,9 +32,11 @@ bool namesMeshFile(const Item& block) {
 std::vector<Object> MeshFiles::read(const Item& block) {
   std::optional<Item> file;
   std::string fileName, name;
-  // Black, which shapes without a material are, would only hide the mesh.
-  NotedMaterial material = materials_.current;
-  completeMaterial(material);
+  NotedMaterial material = materials_.completed(materials_.current);
+  // Black, which shapes of the courses without a material are, would only hide the mesh.
+  Material bare;
+  bare.sides = material.sides;
+  if (!findings_.isOfKind() && material == bare) makePlain(material);
   bool generate = false;
   ObjectLinks links;
   MeshOperations operations;

@@ -58,7 +58,7 @@ void ObjectReader::particles(const Item& call, const Affine& worldFromObject) {
     const auto shade = static_cast<std::size_t>(std::lround(particle.age * kShades));
     std::vector<Object>& objects = shades[shade];
     if (objects.empty()) {
-      materials_.current = material;
+      materials_.current = materials_.completed(material);
       materials_.current.block = NotedMaterial::kNoBlock;
       tint(materials_.current, lerp(static_cast<Real>(shade) / kShades, system.color, system.endColor));
       std::vector<Object> found = std::exchange(scene_.objects, {});

@@ -41,6 +41,9 @@ constexpr std::pair<std::string_view, std::string_view> kInstead[]{
     {"merge", "Trace has union { }"},
     {"normal",
      "rotate x -90 deg { plane { } } is a floor; bump = texture(noise { }, 0.1) in a material bends normals"},
+    {"elif", "else if (condition) { } is another branch of an if"},
+    {"elsif", "else if (condition) { } is another branch of an if"},
+    {"elseif", "else if (condition) { } is another branch of an if"},
     {"object", "Trace places any object itself: translate(x, y, z) { sphere { } }"},
 };
 
@@ -82,6 +85,7 @@ constexpr std::array<std::string_view, 4> kSizes{"radius", "size", "width", "dia
 constexpr std::array<std::string_view, 3> kLengths{"height", "length", "depth"};
 constexpr std::array<std::string_view, 6> kPlaces{"position",  "center", "centre",
                                                   "translate", "at",     "origin"};
+constexpr std::array<std::string_view, 6> kCorners{"low", "high", "min", "max", "from", "to"};
 constexpr std::array<std::string_view, 5> kColours{"color", "colour", "diffuse", "texture", "albedo"};
 
 /// For a field by which other programs say what Trace says around the object or in its material.
@@ -95,6 +99,9 @@ std::string saidElsewhere(std::string_view owner, std::string_view name) {
   if (isOneOf(kSizes, name))
     return "scale(2) { " + made + " makes it twice as large; scale(1, 2, 3) { " + made + ", along x, y and z";
   if (isOneOf(kLengths, name)) return "scale(1, 1, 2) { " + made + " makes it twice as long along z";
+  if (isOneOf(kCorners, name))
+    return "translate(1, 2, 3) { scale(4, 5, 6) { " + made +
+           " } is from its middle (1, 2, 3) as large as that";
   if (isOneOf(kPlaces, name)) return "translate(1, 2, 3) { " + made + " puts it there";
   if (isOneOf(kColours, name)) return "material = { diffuse = (red, green, blue) } is its colour";
   return {};

@@ -23,6 +23,7 @@ struct NotedMaterial : Material {
   explicit NotedMaterial(Material material) : Material(std::move(material)) {}
 
   std::uint32_t block = kNoBlock;  ///< index into Notes::blocks
+  bool given = false;              ///< the file says a field of its looks, were it only a default
 };
 
 struct Notes {

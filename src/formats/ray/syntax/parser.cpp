@@ -178,7 +178,7 @@ class Parser {
       ++at_;
       value("a value after \"=\"");
       close(entry);
-    } else if (callFollows(word)) {
+    } else if (callFollows(word, true)) {
       call(word);
       operators(word, false);
     } else if (valueFollows(word)) {
@@ -227,6 +227,9 @@ class Parser {
     if (text == "if" && peek() == '(') return statement(word, Kind::branch, &Parser::branch);
     if (text == "include" && peek() == '"') return statement(word, Kind::include, &Parser::included);
     if (text == "rotate" && peek() >= 'x' && peek() <= 'z' && !isWordPart(next())) return turn(word);
+    if (text == "rotate" && syntax_.isOfKind() && (isDigit(peek()) || peek() == '-'))
+      fail(at_, "expected an axis after rotate, found " + shown(peek()),
+           "rotate takes an axis and degrees: rotate y 45 { ... }");
     at_ = end;
     return false;
   }
@@ -325,7 +328,9 @@ class Parser {
   void body() {
     blanks();
     if (peek() != '{') failFound("expected " + shown('{'));
+    ++bodies_;
     brackets();
+    --bodies_;
   }
 
   // --- expressions ---
@@ -359,7 +364,7 @@ class Parser {
       const std::uint32_t word = this->word();
       const std::size_t end = at_;
       blanks();
-      if (callFollows(word)) {
+      if (callFollows(word, false)) {
         call(word);
       } else {
         at_ = end;
@@ -509,8 +514,20 @@ class Parser {
     --depth_;
   }
 
-  bool callFollows(std::uint32_t word) const {
-    return !nodes_[word].quoted && ((peek() == '{' && !beforeBody_) || peek() == '(');
+  bool callFollows(std::uint32_t word, bool isItem) const {
+    if (nodes_[word].quoted) return false;
+    return peek() == '(' ? !onLaterLine(word, isItem) : peek() == '{' && !beforeBody_;
+  }
+  /// In the language a "(" that begins a line begins a value. Files of the courses may break lines anywhere.
+  bool onLaterLine(std::uint32_t word, bool isItem) const {
+    if (!syntax_.isOfKind() && bodies_ == 0) return false;
+    const std::size_t end = nodes_[word].offset - base_ + nodes_[word].length;
+    if (source_.substr(end, at_ - end).find('\n') == kNone) return false;
+    const std::string_view name = Item(syntax_, word).text();
+    if (isFunction(name) || (isItem && arityOf(name) > 0))
+      fail(at_, "expected " + shown('(') + " on the line of " + quoted(name) + ", found it on a later one",
+           "a line that begins with ( begins a new value");
+    return true;
   }
   /// `name "foo"`, and `name foo`, have no "=" in the materials of some scenes.
   bool valueFollows(std::uint32_t word) const {
@@ -696,6 +713,7 @@ class Parser {
   Parsed parsed_;
   std::size_t at_ = 0;
   int depth_ = 0;
+  int bodies_ = 0;           ///< number of bodies of statements around the text being read
   int conditionals_ = 0;     ///< question marks whose colon is still to come
   bool beforeBody_ = false;  ///< a block that follows is no part of the value
 };

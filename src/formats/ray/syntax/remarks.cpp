@@ -4,10 +4,12 @@
 #include <map>
 #include <string_view>
 
+#include "base/files/file.h"
 #include "formats/ray/syntax/syntax.h"
 #include "formats/text_front.h"
 #include "math/vec.h"
 #include "shading/cameras/camera.h"
+#include "shading/lights/light.h"
 
 namespace trace {
 namespace {
@@ -22,6 +24,32 @@ void addAngle(const Syntax& syntax, const Item& rotation, RayRemarks& remarks) {
   const double angle = (*argument).number();
   if (std::abs(angle) > 2 * kPi && 2 * angle == std::round(2 * angle))
     remarks.degrees.push_back({syntax.place((*argument).offset()), angle});
+}
+
+std::optional<Color> plainColor(const Item& value) {
+  if (!value.is(Kind::tuple) || value.count() != 3) return {};
+  double channels[3];
+  int count = 0;
+  for (const Item channel : value) {
+    if (!channel.is(Kind::number)) return {};
+    channels[count++] = channel.number();
+  }
+  return Color(channels[0], channels[1], channels[2]);
+}
+
+void addStrength(const Syntax& syntax, const Item& light, RayRemarks& remarks) {
+  RayRemarks::Strength strength{syntax.place(light.offset())};
+  for (const Item field : light.value()) {
+    if (!field.keyed()) continue;
+    if (field.key() == "power") {
+      strength.says = strength.says && field.value().is(Kind::number);
+      if (field.value().is(Kind::number)) strength.power = field.value().number();
+    } else if (field.key() == "color" || field.key() == "colour") {
+      strength.color = plainColor(field.value());
+      strength.says = strength.says && strength.color;
+    }
+  }
+  remarks.lights.push_back(std::move(strength));
 }
 
 /// The names that a file defines, and how often its words name them.
@@ -76,14 +104,27 @@ RayRemarks remarksOn(const std::string& file, std::string_view bytes) {
   const Syntax syntax(file, front.text());
   RayRemarks remarks;
   remarks.camera.file = file;
+  remarks.isOfKind = syntax.isOfKind();
   if (syntax.usesLanguage()) NameUses(syntax).addUnused(remarks);
   for (std::uint32_t i = 0; i < syntax.nodes().size(); ++i) {
     const Item item(syntax, i);
     if (!item.is(Kind::call)) continue;
     if (item.key() == "rotate" && !syntax.isOfKind()) addAngle(syntax, item, remarks);
+    if (item.value().is(Kind::block) && findLightType(item.key())) addStrength(syntax, item, remarks);
     if (item.key() == Camera::kKeyword) remarks.camera = syntax.place(item.offset());
   }
   return remarks;
+}
+
+RayRemarks remarksOn(const Scene& scene) {
+  RayRemarks none;
+  none.camera.file = scene.file;
+  if (scene.format != "ray" || !isOrdinaryFile(scene.file)) return none;  // a pipe is empty by now
+  try {
+    return remarksOn(scene.file, readFile(scene.file));
+  } catch (const Error&) {
+    return none;
+  }
 }
 
 }  // namespace trace

@@ -249,8 +249,12 @@ MaterialEdits::Fields MaterialEdits::missing(const Item* block, const Material& 
 }
 
 std::string MaterialEdits::blockText(const Material& from, const Material& wanted, bool whole) const {
+  Fields fields = missing(nullptr, from, wanted, whole);
+  const auto* phong = wanted.model.as<Phong>();
+  if (fields.empty() && phong && edits_.syntax().isOfKind())  // an empty block would be grey
+    fields.push_back("diffuse = " + valueText(wanted, "diffuse", phong->diffuse));
   std::string text = "{ ";
-  for (const std::string& field : missing(nullptr, from, wanted, whole)) text += field + "; ";
+  for (const std::string& field : fields) text += field + "; ";
   return laidOut(text + "}", "    ");
 }
 
