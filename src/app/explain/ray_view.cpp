@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "app/explain/ray_segments.h"
+#include "app/explain/ray_words.h"
 #include "base/text.h"
 #include "scene/groups.h"
 
@@ -91,7 +92,7 @@ class Differ {
     }
     if (ends<Blocked>(a) != ends<Blocked>(b)) return ends<Blocked>(a) ? "now lit" : "now blocked";
     if (a.radiance == b.radiance) return "";
-    return "radiance " + text(a.radiance) + " before";
+    return channels(a.radiance) + ", now " + channels(b.radiance);
   }
 
   const RayTree &a_, &b_;
@@ -116,7 +117,7 @@ std::string metBy(const RayTree& tree, const Scene& scene, int ray) {
   for (const RayEnd& end : node.ends)
     if (const auto* stop = std::get_if<Blocked>(&end)) return objectName(scene, stop->object);
   const Term* term = termOf(tree, ray);
-  return term && term->light ? lightName(scene, term->light->light) : "";
+  return term && term->light ? shortLightName(scene, term->light->light) : "";
 }
 
 Real share(const RayNode& node) { return std::abs(maxComponent(node.weight * node.radiance)); }
