@@ -92,7 +92,8 @@ class Differ {
     }
     if (ends<Blocked>(a) != ends<Blocked>(b)) return ends<Blocked>(a) ? "now lit" : "now blocked";
     if (a.radiance == b.radiance) return "";
-    return channels(a.radiance) + ", now " + channels(b.radiance);
+    const std::string before = channels(a.radiance, 2), now = channels(b.radiance, 2);
+    return before != now ? before + " to " + now : channels(a.radiance) + " to " + channels(b.radiance);
   }
 
   const RayTree &a_, &b_;
@@ -103,9 +104,10 @@ class Differ {
 
 }  // namespace
 
-std::string channels(const Color& c) {
+std::string channels(const Color& c, int digits) {
   char buffer[96];
-  std::snprintf(buffer, sizeof buffer, "%.3g %.3g %.3g", c.r + 0.0, c.g + 0.0, c.b + 0.0);  // no -0
+  std::snprintf(buffer, sizeof buffer, "%.*g %.*g %.*g", digits, c.r + 0.0, digits, c.g + 0.0, digits,
+                c.b + 0.0);  // no -0
   return buffer;
 }
 
