@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "app/editing/first_scene.h"
 #include "app/view/magnifier.h"
 #include "studio/dialogs.h"
 #include "studio/host.h"
@@ -60,6 +61,12 @@ void newScene(Studio& studio) {
   studio.dialog.open("Write a new scene", FileDialog::Purpose::write, studio.workspace.newSceneFile(),
                      {".ray"}, [&studio](const std::string& file) {
                        studio.leave([&studio, file] { studio.workspace.startScene(file); });
+                     });
+}
+void newSmallScene(Studio& studio) {
+  studio.dialog.open("Write a small scene", FileDialog::Purpose::write, studio.workspace.newSceneFile(),
+                     {".ray"}, [&studio](const std::string& file) {
+                       studio.leave([&studio, file] { studio.workspace.startScene(file, kSmallScene); });
                      });
 }
 void openReference(Studio& studio) {
@@ -116,6 +123,10 @@ void copyLink(Studio& studio) {
 constexpr std::array kActions{
     Action{"File", "New scene...", 'N', true, false, "write a first scene to a new file, and open it",
            newScene, always, nullptr},
+    Action{"File", "New small scene...", 0, false, false,
+           "write a scene for a course to a new file, and open it: a floor, a ball and a light, by Whitted's "
+           "tracer",
+           newSmallScene, always, nullptr},
     Action{"File", "Open scene...", 'O', true, false, "choose a scene file", openScene, always, nullptr},
     Action{"File", "Open from this computer...", 0, false, false,
            "choose files of your computer: a scene, what it needs, or a picture to compare with",
@@ -223,7 +234,8 @@ constexpr std::array kActions{
 bool belongsToText(const KeyPress& press) {
   const bool edits = press.key > 0 && press.key < 128 &&
                      std::string_view("ACVXYZ").find(static_cast<char>(press.key)) != std::string_view::npos;
-  return press.control ? edits && !press.alt : !press.alt;
+  const bool function = press.key >= kF1 && press.key <= kF11;
+  return press.control ? edits && !press.alt : !press.alt && !function;
 }
 
 void recentMenu(Studio& studio) {
@@ -270,10 +282,13 @@ void takeKeys(Studio& studio) {
   // Menus and lists take the plain keys; Dear ImGui closes them on Esc.
   constexpr ImGuiPopupFlags kAny = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
   const bool popup = ImGui::IsPopupOpen("", kAny), text = ImGui::GetIO().WantTextInput;
+  const bool closed = std::exchange(studio.popupOpen, popup) && !popup;  // by a key of this frame
   for (const KeyPress& press : studio.keys) {
     if (studio.stage && press.key == ' ') stepOnStage(studio);
     if (studio.stage && press.key == kEscape) toggleStage(studio);
-    if ((text && belongsToText(press)) || (popup && !press.control && !press.alt)) continue;
+    if ((text && belongsToText(press)) || (closed && press.key == kEscape) ||
+        (popup && !press.control && !press.alt))
+      continue;
     for (const Action& action : kActions)
       if (action.key == press.key && action.control == press.control &&
           (action.shift == press.shift || press.key == '=') &&  // where + is above =

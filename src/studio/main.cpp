@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/session/version.h"
+#include "app/view/magnifier.h"
 #include "base/error.h"
 #include "base/files/read_scope.h"
 #include "base/os/process.h"
@@ -27,7 +28,6 @@ namespace {
 constexpr int kWidth = 1280, kHeight = 800;  // width and height of the window, at first, on a plain monitor
 // A page begins smaller than any screen: Emscripten would fill one of exactly that size.
 constexpr int kSmall = 320;
-constexpr float kStage = 1.6f;                // how much larger everything is on the stage
 constexpr double kSoon = 0.004;               // seconds until the next step of a view that is made smooth
 constexpr double kIdle = 0.25, kBusy = 0.03;  // seconds between two looks at what continues in the background
 
@@ -97,9 +97,19 @@ bool update(Studio& studio, double longest) {
   return due;
 }
 
+/// How much larger everything is than at first.
+float scaleOf(const Studio& studio) {
+  const float own = studio.window.contentScale() * studio.userScale;
+  if (!studio.stage) return own;
+  int width = 0, height = 0;
+  studio.window.size(width, height);
+  return studio.userScale * static_cast<float>(std::max<Real>(studio.window.contentScale(), 1) *
+                                               stageScale(height / studio.window.contentScale()));
+}
+
 void frame(Studio& studio) {
-  if (studio.themeChanged) {
-    studio.theme.scale = studio.window.contentScale() * studio.userScale * (studio.stage ? kStage : 1);
+  if (studio.themeChanged || (studio.stage && studio.theme.scale != scaleOf(studio))) {
+    studio.theme.scale = scaleOf(studio);
     apply(studio.theme);
     studio.window.fontsChanged();
     studio.themeChanged = false;

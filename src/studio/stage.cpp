@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/explain/ray_words.h"
 #include "studio/actions.h"
 #include "studio/panels.h"
 #include "studio/rays/ray_rows.h"
@@ -25,9 +26,8 @@ void drawCaption(Studio& studio) {
         "Click on the picture. Space: the next ray. P: all, one after the other. Z: magnify. F11 or Esc: "
         "back.");
   } else if (const int ray = view.step - 1; view.step > 0 && ray < static_cast<int>(view.rays)) {
-    ImGui::TextColored(rayColour(studio, *pixel, ray), "%d of %d  %s: %s", view.step,
-                       static_cast<int>(view.rays), rayName(*pixel, ray),
-                       sentence(rayAt(pixel->tree(), ray), pixel->scene()).c_str());
+    ImGui::TextColored(rayColour(studio, *pixel, ray), "%d of %d  %s", view.step, static_cast<int>(view.rays),
+                       stepOf(pixel->tree(), pixel->scene(), ray).c_str());
   } else {
     ImGui::TextUnformatted(pixel->why.sentence.c_str());
   }

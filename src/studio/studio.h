@@ -42,7 +42,8 @@ struct Studio {
   Preferences preferences;
   std::string configFolder;
   Theme theme;
-  float userScale = 1;  ///< times the monitor's
+  float userScale = 1;     ///< times the monitor's
+  bool popupOpen = false;  ///< a menu or list was open in the last frame
   bool themeChanged = true;
   Layout layout;
   PictureView picture;

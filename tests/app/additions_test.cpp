@@ -60,6 +60,16 @@ TEST(Additions, HavePictures) {
   EXPECT_LE(count, kMostWithout) << without;
 }
 
+TEST(Additions, LightsThatNeedNoFileAreSeenInTheirPictures) {
+  for (const char* name :
+       {"ambient_light", "directional_light", "point_light", "rectangle_light", "spot_light"}) {
+    const Bytes picture = preview({Kind::light, name, {}}, 24);
+    double sum = 0;
+    for (const std::uint8_t level : picture.rgb) sum += level;
+    EXPECT_GT(sum / static_cast<double>(picture.rgb.size()), 40) << name;
+  }
+}
+
 TEST(Swatches, AreColoursThatSurfacesMayHave) {
   for (const Swatch& swatch : kSwatches) {
     EXPECT_FALSE(swatch.name.empty());

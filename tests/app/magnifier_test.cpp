@@ -6,6 +6,12 @@
 namespace trace::test {
 namespace {
 
+TEST(Magnifier, TextOnTheStageGrowsWithTheWindow) {
+  EXPECT_EQ(stageScale(400), stageScale(640));
+  EXPECT_NEAR(stageScale(1080) / stageScale(720), 1.5, 1e-12);
+  EXPECT_GT(16 * stageScale(1080) / 1080, 0.03);  // share of the height
+}
+
 TEST(Magnifier, KeepsWhatThePointerIsAt) {
   for (const Vec2 pointer : {Vec2{0, 0}, Vec2{300, 200}, Vec2{900, 600}})
     for (const int times : {1, 2, 4}) {

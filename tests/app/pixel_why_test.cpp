@@ -5,7 +5,10 @@
 
 #include <algorithm>
 
+#include "app/explain/pixel_inspector.h"
+#include "app/explain/ray_words.h"
 #include "app/session/session.h"
+#include "formats/format.h"
 #include "geometry/shapes/solids/cube.h"
 #include "geometry/shapes/solids/sphere.h"
 #include "shading/lights/ambient_light.h"
@@ -29,8 +32,39 @@ PixelWhy whyOf(const Scene& scene, Settings settings, int x = 20, int y = 20) {
   session.open(scene, settings);
   session.build();
   const Explanation explanation = session.explain(x, y, 0);
-  return trace::whyOf(explanation.tree, session.scene(), 0);
+  return trace::whyOf(explanation.tree, session.scene(), session.settings());
 }
+
+/// The pixel of a scene in text, as the studio explains it: cures are tried.
+TracedPixel traced(const std::string& text, Settings settings, int x, int y) {
+  Messages messages;
+  auto session = std::make_shared<Session>();
+  session->open(readScene("why.ray", "SBT-raytracer 1.0\n" + text, messages), settings);
+  session->build();
+  return tracePixel(session, x, y, 0);
+}
+
+/// A glass box and a glass ball on a floor, before a background.
+const std::string kGlassScene = R"(
+camera { position = (0, 2.6, 7); look_at = (0, 0.8, 0); fov = 34; aspectratio = 1.5; }
+background { color = (0.5, 0.7, 0.9); }
+point_light { name = "lamp"; position = (-4, 5, 3); color = (0.8, 0.8, 0.8); }
+rotate(1, 0, 0, -1.5708, scale(30, 30, 1, square { name = "floor";
+  material = { diffuse = (0.8, 0.8, 0.8); ambient = (0.8, 0.8, 0.8); } }))
+translate(-1.2, 1.01, 0, rotate(0, 1, 0, 0.6, scale(2, box { name = "glass box";
+  material = { transmissive = (1, 1, 1); index = 1.5; } })))
+translate(1.6, 1, 0.3, sphere { name = "glass ball"; material = { transmissive = (1, 1, 1); index = 1.5; } })
+)";
+
+/// Lights above a floor, with a ball between.
+std::string litFloor(const std::string& lights, const std::string& material) {
+  return "camera { position = (0, 3, 6); look_at = (0, 0, 0); fov = 30; aspectratio = 1; }\n" + lights +
+         "rotate(1, 0, 0, -1.5708, scale(30, 30, 1, square { name = \"floor\"; "
+         "material = { diffuse = (0.8, 0.8, 0.8); } }))\n"
+         "translate(0, 2.2, 0, scale(0.3, sphere { name = \"ball\"; material = { " +
+         material + " } }))\n";
+}
+constexpr std::string_view kSun = "directional_light { direction = (0, -1, 0); color = (0.7, 0.7, 0.7); }\n";
 
 Phong grey() {
   Phong grey;
@@ -99,6 +133,80 @@ TEST(PixelWhy, ASurfaceThatFacesAwaySaysSo) {
   EXPECT_EQ(whyOf(scene, {}).sentence, "Black: ball faces away from sun.");
 }
 
+TEST(PixelWhy, TotalReflectionIsNamedAndNoNormalIsBlamed) {
+  for (const auto& [x, y] : {std::pair{60, 110}, std::pair{150, 150}}) {
+    const PixelWhy why = traced(kGlassScene, {.width = 360, .depth = 8}, x, y).why;
+    EXPECT_EQ(why.sentence, "Black: total internal reflection: the ray cannot leave glass box there.");
+    EXPECT_EQ(why.ray, 1);
+  }
+}
+
+TEST(PixelWhy, FresnelCuresTotalReflectionWhereTheMirroredRayBringsLight) {
+  const std::string sky = "background { gradient = ((1, 1, 1), (1, 1, 1)); }\n";
+  const std::string own = "background { color = (0.5, 0.7, 0.9); }";
+  std::string bright = kGlassScene;
+  bright.replace(bright.find(own), own.size(), sky);
+  const PixelWhy why = traced(bright, {.width = 360, .depth = 8}, 60, 110).why;
+  ASSERT_FALSE(why.cures.empty());
+  EXPECT_EQ(why.cures.back().label, "fresnel exact");
+}
+
+TEST(PixelWhy, ARefractedRayThatLeavesTheSceneIsNamed) {
+  const PixelWhy why = traced(kGlassScene, {.width = 360, .depth = 8}, 273, 150).why;
+  EXPECT_EQ(why.sentence,
+            "Black: the ray that leaves glass ball left the scene, and only camera rays see the background.");
+  EXPECT_EQ(why.ray, 2);
+  EXPECT_TRUE(why.cures.empty());
+}
+
+TEST(PixelWhy, ADepthThatDoesNotHelpIsNotOffered) {
+  const std::string twoBalls =
+      "camera { position = (0, 0, 6); look_at = (0, 0, 0); fov = 30; aspectratio = 1; }\n"
+      "sphere { name = \"ball\"; material = { transmissive = (0.9, 0.9, 0.9); index = 1.5; } }\n";
+  const PixelWhy empty = traced(twoBalls, {.width = 40, .depth = 1}, 20, 20).why;
+  EXPECT_EQ(empty.sentence.find("depth"), std::string::npos) << empty.sentence;
+  EXPECT_TRUE(std::none_of(empty.cures.begin(), empty.cures.end(),
+                           [](const WhyCure& cure) { return cure.option == "depth"; }));
+  const PixelWhy sky = traced(twoBalls + "background { gradient = ((1, 1, 1), (1, 1, 1)); }\n",
+                              {.width = 40, .depth = 1}, 20, 20)
+                           .why;
+  EXPECT_EQ(sky.sentence, "Black: the ray that should leave ball was not sent: depth limit 1.");
+  EXPECT_EQ(sky.cures.size(), 2u);
+}
+
+TEST(PixelWhy, LightThatGlassFiltersSaysSo) {
+  const std::string glass = "transmissive = (0.5, 0.5, 0.5); index = 1.5;";
+  const TracedPixel pixel = traced(litFloor(std::string(kSun), glass), {.width = 40}, 20, 20);
+  EXPECT_EQ(pixel.why.sentence, "In shadow: ball filters directional_light to 25 %.");
+  const std::string clear = "transmissive = (0.95, 0.95, 0.95); index = 1.5;";
+  EXPECT_EQ(traced(litFloor(std::string(kSun), clear), {.width = 40}, 20, 20).why.sentence,
+            "floor shows only light directional_light, filtered by ball to 90 %.");
+  EXPECT_EQ(filtersOf(rayAt(pixel.tree(), 1), pixel.scene()), "ball");
+  EXPECT_EQ(shortEnd(rayAt(pixel.tree(), 1)).find("filtered to "), 0u);
+  const Settings black{.width = 40, .glassShadows = GlassShadows::black};
+  const PixelWhy why = traced(litFloor(std::string(kSun), glass), black, 20, 20).why;
+  EXPECT_EQ(why.sentence,
+            "Black: ball blocks directional_light from floor: it is clear, but glass-shadows is black.");
+  ASSERT_EQ(why.cures.size(), 2u);
+  EXPECT_EQ(why.cures[1].label, "glass-shadows filtered");
+}
+
+TEST(PixelWhy, AllBlockedLightsAreNamed) {
+  const std::string clay = "diffuse = (0.8, 0.7, 0.6);";
+  const std::string slanted =
+      "directional_light { name = \"moon\"; direction = (0.02, -1, 0); color = (0.2, 0.2, 0.4); }\n";
+  EXPECT_EQ(traced(litFloor(std::string(kSun) + slanted, clay), {.width = 40}, 20, 20).why.sentence,
+            "Black: ball blocks directional_light and moon from floor.");
+  const TracedPixel three =
+      traced(litFloor(std::string(kSun) + std::string(kSun) + slanted, clay), {.width = 40}, 20, 20);
+  EXPECT_EQ(three.why.sentence, "Black: ball blocks all three lights from floor.");
+  // Lights without a name are numbered.
+  EXPECT_EQ(shortLightName(three.scene(), 1), "directional_light 2");
+  EXPECT_EQ(stepOf(three.tree(), three.scene(), 1), "shadow ray: ball blocks directional_light 1 from floor");
+  EXPECT_EQ(stepOf(three.tree(), three.scene(), 0),
+            "camera ray: hits floor, which neither mirrors nor transmits");
+}
+
 TEST(PixelWhy, WithoutALightNothingReachesIt) {
   EXPECT_EQ(whyOf(ballOf(grey()), {}).sentence, "Black: no light reaches ball.");
 }
@@ -121,7 +229,7 @@ TEST(PixelWhy, TheSummandsAddUpToTheRadiance) {
   session.open(scene, settings);
   session.build();
   const Explanation explanation = session.explain(20, 20, 0);
-  const PixelWhy why = trace::whyOf(explanation.tree, session.scene(), 0);
+  const PixelWhy why = trace::whyOf(explanation.tree, session.scene(), session.settings());
   Color sum;
   for (const WhySummand& each : why.sum) sum = sum + each.color;
   const Color whole = explanation.tree.nodes.front().radiance;
@@ -156,7 +264,9 @@ TEST(PixelWhy, EveryRayHasAnEquation) {
   for (int ray = 0; ray < static_cast<int>(tree.nodes.size()); ++ray) {
     Color sum;
     for (const WhySummand& each : sumOf(tree, session.scene(), ray)) sum = sum + each.color;
-    if (rayAt(tree, ray).kind != RayKind::shadow) EXPECT_NEAR(sum.r, rayAt(tree, ray).radiance.r, 1e-12);
+    if (rayAt(tree, ray).kind != RayKind::shadow) {
+      EXPECT_NEAR(sum.r, rayAt(tree, ray).radiance.r, 1e-12);
+    }
   }
 }
 

@@ -84,6 +84,44 @@ TEST(Placing, ANewObjectIsBeforeAWallAndInTheAirIfThereIsNothing) {
   EXPECT_EQ(placedInSight(endless, view, camera.updir, wall, 5), Affine{});
 }
 
+TEST(Placing, ANewObjectStandsBesideOthersAndNotInThem) {
+  Camera camera;
+  camera.position = {0, 3, 6}, camera.viewdir = {0, -3, -6};
+  const CameraFrame view = frame(camera, CameraAxes::orthonormal);
+  const Box3 own{{-1, 0, -1}, {1, 2, 1}}, floor{{-30, 0, -30}, {30, 0, 30}}, room{{-9, -1, -9}, {9, 9, 9}},
+      ball{{-0.5, 0, -0.5}, {1.5, 2, 1.5}};
+  EXPECT_EQ(freedFrom({floor, room}, own, view, camera.updir), Vec3{});
+  const Vec3 by = freedFrom({floor, room, ball}, own, view, camera.updir);
+  EXPECT_NE(by, Vec3{});
+  EXPECT_NEAR(by.y, 0, 1e-12);
+  EXPECT_TRUE(own.low.x + by.x >= ball.high.x - 0.02 || own.high.x + by.x <= ball.low.x + 0.02);
+  // Where all sides are taken it goes on top.
+  const Box3 wide{{-40, 0, -40}, {40, 1, 40}};
+  EXPECT_GE(freedFrom({wide}, own, view, camera.updir).y, 0.9);
+}
+
+TEST(Placing, ANewLightIsAboveAndToTheLeftAndBrightEnough) {
+  Camera camera;
+  camera.position = {0, 1, 10}, camera.viewdir = {0, 0, -1};
+  const CameraFrame view = frame(camera, CameraAxes::orthonormal);
+  const Vec3 target{0, 1, 0}, place = placeOfLight(view, camera.updir, target);
+  EXPECT_GT(place.y, 4);
+  EXPECT_LT(place.x, -2);
+  EXPECT_GT(place.z, 0.5);
+  for (const char* keyword : {"point_light", "spot_light", "rectangle_light"}) {
+    Light light(rowCalled<LightType>(keyword));
+    aimLight(light, place, target);
+    EXPECT_EQ(*light.position(), place) << keyword;
+    const auto arriving = light.illuminate(target, Rules{});
+    ASSERT_TRUE(arriving) << keyword;
+    EXPECT_GT(maxComponent(arriving->intensity()), 0.3) << keyword;
+    EXPECT_LT(maxComponent(arriving->intensity()), 5) << keyword;
+  }
+  Light sun(rowCalled<LightType>("directional_light"));
+  aimLight(sun, place, target);
+  EXPECT_EQ(*sun.direction(), target - place);
+}
+
 TEST(Placing, TakesNoCameraThatSeesNothing) {
   const auto sees = [](auto&& change) {
     Camera camera;

@@ -58,6 +58,36 @@ TEST(RayStory, HasTheRaysTheTreeAndTheSum) {
   EXPECT_EQ(all.height, none.height);
 }
 
+TEST(RayStory, ShowsColoursLightsArrowsAndHowRaysEnded) {
+  Scene scene = mirrorAndBall();
+  Phong blue, glass;
+  blue.diffuse = Color(0, 0, 1);
+  glass.transmissive = Color(0.9);
+  addObject(scene, Sphere{}, Affine::translation({-2.5, 0, 0}), blue);
+  addObject(scene, Sphere{}, Affine::translation({-2.5, 0, 1.5}) * Affine::scaling({0.5, 0.5, 0.5}), glass);
+  scene.lights.push_back({PointLight{.position = {1, 1.5, 0}, .color = {1, 0, 0}}, {}});
+  const auto session = sessionOf(scene, {});
+  Camera view = scene.camera;
+  view.aspectratio = 1.5;
+  const Drawing drawing = RayStory(tracePixel(session, 20, 20, 0), view).after(99);
+  EXPECT_GE(wordsIn(drawing, "opaque"), 1u);
+  int heads = 0, lamps = 0;
+  bool blueSeen = false, blueBehindGlass = false;
+  for (const Drawn& thing : drawing.things) {
+    heads += std::holds_alternative<DrawnTriangle>(thing);
+    if (const auto* disk = std::get_if<DrawnDisk>(&thing))
+      lamps += disk->color.r > 0.7 && disk->color.g < 0.1;
+    if (const auto* picture = std::get_if<DrawnPicture>(&thing))
+      for (const Color& c : picture->picture.pixels) {
+        blueSeen = blueSeen || (c.b > 0.9 && c.r < 0.1);
+        blueBehindGlass = blueBehindGlass || (c.b > 0.7 && c.r > 0.12 && c.r < 0.4);
+      }
+  }
+  EXPECT_GE(heads, 1);
+  EXPECT_EQ(lamps, 1);
+  EXPECT_TRUE(blueSeen && blueBehindGlass);
+}
+
 TEST(RayStory, AFilmHasAPictureForEachRay) {
   const auto session = sessionOf(mirrorAndBall(), {});
   const RayStory story(tracePixel(session, 20, 20, 0), session->scene().camera);

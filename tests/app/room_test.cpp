@@ -45,6 +45,28 @@ TEST(Room, ItsWallsAreWhatEnclosesTheCamera) {
   EXPECT_TRUE(wallsOf(box).empty());
 }
 
+TEST(Room, TheViewTurnsUntilARoofHidesNoHit) {
+  Scene scene;
+  addObject(scene, Cube{}, Affine::translation({0, 1.5, 0}) * Affine::scaling({4, 0.1, 4}), {});
+  const World world = build(scene);
+  Camera camera;
+  camera.position = {0, 1, 9};
+  const Box3 box{{-1, -1, -1}, {1, 1, 1}};
+  OrbitCamera orbit(box, camera);
+  orbit.turn(0, 1);  // from high above
+  orbit.lookAt(box);
+  const std::vector<Vec3> hits{{0, 0, 0}, {0.3, 0, 0.2}};
+  const OrbitCamera turned = inSight(orbit, hits, world, {}, camera.position);
+  Statistics statistics;
+  for (const Vec3& hit : hits) {
+    const Vec3 eye = turned.frame(1).eye;
+    EXPECT_FALSE(world.closest({eye, normalize(hit - eye)}, Faces::both, statistics));
+  }
+  // One that sees everything stays.
+  const OrbitCamera again = inSight(turned, hits, world, {}, camera.position);
+  EXPECT_EQ(again.frame(1).eye, turned.frame(1).eye);
+}
+
 TEST(Room, AFloorUnderTheSkyIsNone) {
   Scene scene;
   addObject(scene, Sphere{}, {}, {});

@@ -128,6 +128,10 @@ TEST_F(WorkspaceTest, ANewSceneIsWrittenAndOpenedButOverNoFile) {
   EXPECT_GT(workspace.document.scene().objects.size(), 3u);
   EXPECT_TRUE(std::filesystem::exists(path("first.ray")));
   EXPECT_EQ(workspace.newSceneFile(), path("scene-2.ray"));
+  workspace.startScene(path("small.ray"), kSmallScene);
+  ASSERT_TRUE(settled(workspace));
+  EXPECT_EQ(workspace.document.scene().objects.size(), 2u);
+  EXPECT_EQ(workspace.document.settings().integrator, IntegratorKind::whitted);
 }
 
 TEST_F(WorkspaceTest, WithoutASceneNothingIsWritten) {

@@ -38,4 +38,28 @@ for i in 0..8 {
 // point_light { position = (-3, 5, 4); radius = 0.4 }
 )";
 
+/// A smaller one for courses.
+inline constexpr std::string_view kSmallScene = R"(Trace 1
+
+// A small scene for a course: a floor, a ball and a light, rendered by Whitted's tracer.
+// The picture shows the numbers as they are: no exposure and no tone curve are added.
+settings { integrator = whitted; spp = 1; depth = 5; tone = clamp; auto-exposure = off }
+background { gradient = ((0.3, 0.3, 0.3), (0.55, 0.65, 0.8), (0.3, 0.45, 0.7)) }
+
+camera { position = (0, 2.2, 7); look_at = (0, 0.8, 0); fov = 34; aspectratio = 4 / 3 }
+
+// Its light does not fade with the distance.
+point_light {
+  name = "lamp"
+  position = (-4, 5, 3)
+  color = (0.9, 0.9, 0.9)
+  constant_attenuation_coeff = 1
+  quadratic_attenuation_coeff = 0
+}
+ambient_light { color = (0.2, 0.2, 0.2) }
+
+plane { name = "floor"; material = { diffuse = (0.6, 0.6, 0.6); ambient = (0.6, 0.6, 0.6) } }
+translate(0, 1, 0) { sphere { name = "ball"; material = { diffuse = (0.8, 0.3, 0.2); ambient = (0.8, 0.3, 0.2) } } }
+)";
+
 }  // namespace trace

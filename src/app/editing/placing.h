@@ -2,11 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "geometry/ray.h"
 #include "math/box.h"
 #include "math/transform.h"
 #include "shading/cameras/camera.h"
+#include "shading/lights/light.h"
 
 namespace trace {
 
@@ -28,6 +30,17 @@ bool keepsObject(const Affine& placed);
 /// one without an end stays as it is made.
 Affine placedInSight(const Box3& bounds, const CameraFrame& camera, const Vec3& updir,
                      const std::optional<SurfacePoint>& there, Real ahead);
+
+/// The move that frees a new object, whose box this is, from the boxes of others: to the right, to the left,
+/// toward the eye, or on top of them. None if it is free. What holds it wholly, as a room does, is no
+/// obstacle.
+Vec3 freedFrom(const std::vector<Box3>& others, const Box3& own, const CameraFrame& camera,
+               const Vec3& updir);
+
+/// Where a new light goes: above and to the left of what the camera looks at.
+Vec3 placeOfLight(const CameraFrame& camera, const Vec3& updir, const Vec3& target);
+/// Puts the light there, toward the target, and makes it bright enough to be seen on it.
+void aimLight(Light& light, const Vec3& position, const Vec3& target);
 
 /// Readers take the camera: its field of view, its aspect ratio and its axes make a picture.
 bool cameraSees(const Camera& camera);

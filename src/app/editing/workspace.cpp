@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "app/compare/difference.h"
-#include "app/editing/first_scene.h"
 #include "app/editing/scene_changes.h"
 #include "app/editing/texture_edits.h"
 #include "app/session/output.h"
@@ -98,13 +97,13 @@ void Workspace::open(const std::string& file) {
   openFrom(asked_->file, {});
 }
 
-void Workspace::startScene(const std::string& file) {
+void Workspace::startScene(const std::string& file, std::string_view text) {
   asked_.reset();
-  openFrom(absolute(file), [path = absolute(file)] {
+  openFrom(absolute(file), [path = absolute(file), text] {
     if (fs::exists(path))
       throw Error(Fault::usage, SourcePlace{.file = path}, "not written: there is such a file",
                   "a new scene overwrites nothing; choose another name");
-    writeFile(path, std::string(kFirstScene));
+    writeFile(path, std::string(text));
   });
 }
 

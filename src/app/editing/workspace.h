@@ -11,9 +11,11 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/editing/document.h"
+#include "app/editing/first_scene.h"
 #include "app/explain/pixel_inspector.h"
 #include "app/session/background_render.h"
 #include "app/session/background_task.h"
@@ -27,7 +29,7 @@ class Workspace {
   /// none, the file is read again as soon as it changes.
   void open(const std::string& file);
   /// Writes a first scene to a file that does not exist yet, and opens it.
-  void startScene(const std::string& file);
+  void startScene(const std::string& file, std::string_view text = kFirstScene);
   /// "scene.ray" in the folder of the document, or the current one; or a name there that no file has.
   std::string newSceneFile() const;
   /// Called often: takes what was done in the background, renders after changes, reads the file again when it

@@ -1,8 +1,12 @@
 #include "app/explain/pixel_inspector.h"
 
 #include <algorithm>
+#include <array>
 
+#include "base/budget.h"
+#include "render/integrators/make_integrator.h"
 #include "scene/integrators.h"
+#include "scene/options.h"
 
 namespace trace {
 namespace {
@@ -21,8 +25,35 @@ std::string noteOn(const Settings& settings) {
   return settings.denoise ? "Denoise makes the pixel a mean of pixels that are alike." : "";
 }
 
+/// Traces the pixel's sample as it would be with another value of an option.
+std::optional<Color> retraced(const TracedPixel& pixel, std::string_view option, const std::string& value,
+                              const Cancelled& cancelled) {
+  constexpr double kMostSeconds = 0.5;
+  if (cancelled && cancelled()) return {};
+  Budget budget(budgetOfThread.budget);
+  budget.limitTime(kMostSeconds);
+  const BudgetScope scope(&budget);
+  try {
+    const Session& session = *pixel.session;
+    Settings settings = session.settings();
+    findOption(option).assign(settings, value);
+    Messages ignored;  // said once the option is chosen
+    const Compiled here{pixel.scene(), session.settings(), session.worldOf(pixel.tree())};
+    const World world = compile(pixel.scene(), settings, ignored, &here);
+    Job job;
+    const std::unique_ptr<const Integrator> integrator = makeIntegrator(world, settings, job);
+    const std::array moments{Moment{&world, integrator.get()}};
+    const auto onlyTree = [] { return true; };
+    const Explanation then =
+        explain(moments, settings, session.size(), pixel.x, pixel.y, pixel.tree().sample, onlyTree);
+    if (!then.tree.nodes.empty()) return then.tree.nodes.front().radiance;
+  } catch (const std::exception&) {  // too many rays, or too little time
+  }
+  return {};
+}
+
 /// Facts that follow from the tree.
-void arrange(TracedPixel& pixel) {
+void arrange(TracedPixel& pixel, const Cancelled& cancelled) {
   pixel.segments = raySegments(pixel.tree());
   const std::vector<RayNode>& rays = pixel.tree().nodes;
   pixel.level.assign(rays.size(), 0);
@@ -34,14 +65,17 @@ void arrange(TracedPixel& pixel) {
     pixel.hasChildren[parent] = 1;
   }
   pixel.ways = pathWays(pixel.tree());
-  pixel.why = whyOf(pixel.tree(), pixel.scene(), pixel.session->settings().exposure);
+  pixel.why = whyOf(pixel.tree(), pixel.scene(), pixel.session->settings(),
+                    [&](std::string_view option, const std::string& value) {
+                      return retraced(pixel, option, value, cancelled);
+                    });
 }
 
 }  // namespace
 
 TracedPixel arrangedPixel(std::shared_ptr<const Session> session, Explanation explanation) {
   TracedPixel pixel{std::move(session), explanation.tree.x, explanation.tree.y, 0, std::move(explanation)};
-  arrange(pixel);
+  arrange(pixel, {});
   return pixel;
 }
 
@@ -50,7 +84,7 @@ TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int
   TracedPixel pixel{session, x, y, std::clamp(sample, 0, mostRaysOf(session->settings()) - 1)};
   try {
     pixel.explanation = pixel.session->explain(x, y, pixel.sample, cancelled);
-    arrange(pixel);
+    arrange(pixel, cancelled);
     pixel.note = noteOn(session->settings());
   } catch (const Error& error) {
     pixel.problem = error.messages().front().what;

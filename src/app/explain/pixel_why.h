@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,7 +15,8 @@ namespace trace {
 
 /// A summand of the camera ray's radiance: the terms of one kind and one light together.
 struct WhySummand {
-  std::string name;  ///< "reflection", "light lamp"
+  std::string name;   ///< "reflection", "light lamp"
+  std::string brief;  ///< "reflection", "lamp"
   Color color;
   int ray = -1;   ///< the first ray that it came along; -1: none
   int last = -1;  ///< the last ray that it needs, in the order of tracing
@@ -45,8 +47,13 @@ std::string equationOf(const RayTree& tree, const Scene& scene, int ray);
 /// The sum after the first `rays` rays in the order of tracing: its terms of which no ray is missing.
 Color sumAfter(const std::vector<WhySummand>& sum, int rays);
 
-/// Explains the sample that the tree has. Black and dark are judged as the picture shows them, with this
-/// exposure in stops.
-PixelWhy whyOf(const RayTree& tree, const Scene& scene, Real exposure);
+/// The sample's radiance with another value of an option; nothing if that takes too long.
+using Retrace = std::function<std::optional<Color>(std::string_view option, const std::string& value)>;
+
+/// Explains the sample that the tree has. Black and dark are judged as the picture shows them, with the
+/// exposure of the settings. The cause is what takes the most light from the pixel. Options are offered as
+/// cures if `retrace`, where there is one, shows that they change the pixel.
+PixelWhy whyOf(const RayTree& tree, const Scene& scene, const Settings& settings,
+               const Retrace& retrace = {});
 
 }  // namespace trace

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "app/explain/ray_segments.h"
+#include "app/explain/ray_words.h"
 #include "base/text.h"
 #include "scene/groups.h"
 
@@ -91,7 +92,8 @@ class Differ {
     }
     if (ends<Blocked>(a) != ends<Blocked>(b)) return ends<Blocked>(a) ? "now lit" : "now blocked";
     if (a.radiance == b.radiance) return "";
-    return "radiance " + text(a.radiance) + " before";
+    const std::string before = channels(a.radiance, 2), now = channels(b.radiance, 2);
+    return before != now ? before + " to " + now : channels(a.radiance) + " to " + channels(b.radiance);
   }
 
   const RayTree &a_, &b_;
@@ -102,9 +104,10 @@ class Differ {
 
 }  // namespace
 
-std::string channels(const Color& c) {
+std::string channels(const Color& c, int digits) {
   char buffer[96];
-  std::snprintf(buffer, sizeof buffer, "%.3g %.3g %.3g", c.r + 0.0, c.g + 0.0, c.b + 0.0);  // no -0
+  std::snprintf(buffer, sizeof buffer, "%.*g %.*g %.*g", digits, c.r + 0.0, digits, c.g + 0.0, digits,
+                c.b + 0.0);  // no -0
   return buffer;
 }
 
@@ -116,7 +119,7 @@ std::string metBy(const RayTree& tree, const Scene& scene, int ray) {
   for (const RayEnd& end : node.ends)
     if (const auto* stop = std::get_if<Blocked>(&end)) return objectName(scene, stop->object);
   const Term* term = termOf(tree, ray);
-  return term && term->light ? lightName(scene, term->light->light) : "";
+  return term && term->light ? shortLightName(scene, term->light->light) : "";
 }
 
 Real share(const RayNode& node) { return std::abs(maxComponent(node.weight * node.radiance)); }

@@ -13,8 +13,8 @@ namespace trace {
 /// The contribution of the ray to the pixel: the largest channel of weight * radiance for rays that bring
 /// light.
 Real share(const RayNode& node);
-/// "0.12 0.1 0.0813": red, green and blue.
-std::string channels(const Color& c);
+/// "0.12 0.1 0.0813": red, green and blue, with so many significant digits.
+std::string channels(const Color& c, int digits = 3);
 
 /// The object, light or medium that the ray came to; "" if none.
 std::string metBy(const RayTree& tree, const Scene& scene, int ray);

@@ -5,8 +5,8 @@
 #include <exception>
 #include <string>
 
+#include "app/editing/placing.h"
 #include "app/view/examples.h"
-#include "base/find_field.h"
 #include "formats/format.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellate.h"
@@ -80,11 +80,12 @@ Scene sceneOfShape(std::string_view name) {
 Scene sceneOfLight(std::string_view name) {
   Scene scene = sceneOf(std::string(kStage) + std::string(kFloor) + std::string(kBall));
   scene.background = {};
+  constexpr Color kOfAmbient(0.6);  // the share of ambient light, so that this is seen, too
+  for (Material& material : scene.materials)
+    changeColors(material.model, {kAmbient}, [&](const Color&) { return kOfAmbient; });
   Light light(rowCalled<LightType>(name));
   const Vec3 place{-1.1, 1.5, 1.4};
-  if (Color* color = editableValue<Color>(light, "color")) *color = Color(1);
-  if (Vec3* position = editableValue<Vec3>(light, "position")) *position = place;
-  if (Vec3* direction = editableValue<Vec3>(light, "direction")) *direction = -place;
+  aimLight(light, place, {});
   scene.lights.push_back({light, {}});
   return scene;
 }

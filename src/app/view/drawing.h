@@ -21,6 +21,10 @@ struct DrawnLine {
   double width = 1;
   bool dashed = false;
 };
+struct DrawnTriangle {
+  Point2 a, b, c;
+  Color color;
+};
 struct DrawnDisk {
   Point2 center;
   double radius = 1;
@@ -42,7 +46,7 @@ struct DrawnFrame {
   Point2 at;
   double width = 0, height = 0;
 };
-using Drawn = std::variant<DrawnLine, DrawnDisk, DrawnWords, DrawnPicture, DrawnFrame>;
+using Drawn = std::variant<DrawnLine, DrawnTriangle, DrawnDisk, DrawnWords, DrawnPicture, DrawnFrame>;
 
 /// On white, each over those before it. Colours are levels of the screen.
 struct Drawing {
@@ -53,7 +57,7 @@ struct Drawing {
 /// An SVG 1.1 file; pictures are inside it, as PNG.
 std::string toSvg(const Drawing& drawing);
 
-/// Smooth edges; words in stb's easy font.
+/// Smooth edges; words in the letters of image/letters.h.
 Picture toPicture(const Drawing& drawing);
 
 }  // namespace trace

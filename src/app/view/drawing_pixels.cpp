@@ -1,18 +1,11 @@
-// A Drawing as pixels. Lines and disks cover a pixel by the distance of its centre from their edge; the only
-// file that sees stb_easy_font 1.1 (Sean Barrett, public domain), whose letters are made of rectangles.
+// A Drawing as pixels. Lines and disks cover a pixel by the distance of its centre from their edge.
 #include <algorithm>
 #include <cmath>
 
 #include "app/view/drawing.h"
 #include "base/match.h"
+#include "image/letters.h"
 #include "math/elementary.h"
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wconversion"
-#include <stb/stb_easy_font.h>
-#pragma GCC diagnostic pop
 
 namespace trace {
 namespace {
@@ -62,25 +55,30 @@ class Canvas {
           [&](double x, double y) { return d.radius + 0.5 - math::hypot(x - d.center.x, y - d.center.y); });
   }
 
+  void draw(const DrawnTriangle& t) {
+    const auto doubleArea = [](const Point2& p, const Point2& q, const Point2& r) {
+      return (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+    };
+    const double sign = doubleArea(t.a, t.b, t.c) < 0 ? -1 : 1;
+    const auto inside = [&](const Point2& p, const Point2& q, const Point2& at) {
+      const double side = math::hypot(q.x - p.x, q.y - p.y);
+      return side > 0 ? sign * doubleArea(p, q, at) / side : 0;
+    };
+    const auto [left, right] = std::minmax({t.a.x, t.b.x, t.c.x});
+    const auto [top, bottom] = std::minmax({t.a.y, t.b.y, t.c.y});
+    cover(left, top, right + 1, bottom + 1, t.color, [&](double x, double y) {
+      const Point2 at{x, y};
+      return 0.5 + std::min({inside(t.a, t.b, at), inside(t.b, t.c, at), inside(t.c, t.a, at)});
+    });
+  }
+
   void draw(const DrawnWords& w) {
-    constexpr double kFontHeight = 12;  // font height of a line of the font
-    std::string words = w.words;
-    std::vector<char> buffer(words.size() * 400 + 64);
-    const int quads =
-        stb_easy_font_print(0, 0, words.data(), nullptr, buffer.data(), static_cast<int>(buffer.size()));
-    const double scale = std::max(1.0, std::round(w.height / kFontHeight));
-    for (int i = 0; i < quads; ++i) {
-      const auto vertex = [&](int corner, int axis) {  // 16 bytes each: x, y, z, colour
-        float value = 0;
-        const char* at = &buffer[static_cast<std::size_t>((i * 4 + corner) * 16 + axis * 4)];
-        std::copy(at, at + sizeof value, reinterpret_cast<char*>(&value));
-        return static_cast<double>(value);
-      };
-      const double x0 = w.at.x + vertex(0, 0) * scale, y0 = w.at.y + (vertex(0, 1) + 2) * scale;
-      const double x1 = w.at.x + vertex(2, 0) * scale, y1 = w.at.y + (vertex(2, 1) + 2) * scale;
-      cover(x0, y0, x1, y1, w.color,
-            [&](double x, double y) { return x >= x0 && x < x1 && y >= y0 && y < y1 ? 1.0 : 0.0; });
-    }
+    const double width = std::max(1.0, w.height / 12);
+    for (const LetterStroke& stroke : letterStrokes(w.words, w.height))
+      draw(DrawnLine{{w.at.x + stroke.from.x, w.at.y + stroke.from.y},
+                     {w.at.x + stroke.to.x, w.at.y + stroke.to.y},
+                     w.color,
+                     width});
   }
 
   void draw(const DrawnPicture& p) {

@@ -68,6 +68,12 @@ std::string toSvg(const Drawing& drawing) {
                         attribute("stroke-width", l.width) + (l.dashed ? " stroke-dasharray=\"6 4\"" : "") +
                         " stroke-linecap=\"round\"/>\n";
               },
+              [&](const DrawnTriangle& t) {
+                text += "<polygon points=\"";
+                for (const Point2& p : {t.a, t.b, t.c}) text += number(p.x) + "," + number(p.y) + " ";
+                text.back() = '"';
+                text += colorOf("fill", t.color) + "/>\n";
+              },
               [&](const DrawnDisk& d) {
                 text += "<circle" + attribute("cx", d.center.x) + attribute("cy", d.center.y) +
                         attribute("r", d.radius) + colorOf("fill", d.color) + "/>\n";

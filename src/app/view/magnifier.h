@@ -22,6 +22,12 @@ inline WindowPart magnified(const Vec2& window, const Vec2& pointer, Real times)
 /// The next one: 1, 2, 4, and 1 again.
 inline int nextMagnification(int times) { return times >= 4 ? 1 : 2 * times; }
 
+/// How much larger everything is on a stage so many pixels high: text grows with the window.
+inline Real stageScale(Real height) {
+  constexpr Real kPlain = 1.6, kPlainHeight = 640;
+  return height > kPlainHeight ? kPlain * height / kPlainHeight : kPlain;
+}
+
 /// The mark of something that a view of that size does not show, at its edge: the direction to it is from the
 /// middle of the view.
 inline Vec2 edgeMark(const Vec2& size, const Vec2& toward, Real margin) {

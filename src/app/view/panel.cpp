@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "app/view/room.h"
+#include "app/view/scene_model.h"
+#include "math/elementary.h"
 
 namespace trace {
 
@@ -27,12 +29,28 @@ void Panel::line(Drawing& drawing, Vec3 from, Vec3 to, const Color& color, doubl
   if (clip(p, q)) drawing.things.push_back(DrawnLine{p, q, color, width, dashed});
 }
 
-void Panel::disk(Drawing& drawing, const Vec3& point, double radius, const Color& color) const {
+std::optional<Point2> Panel::placeOf(const Vec3& point) const {
   const auto seen = isFinite(point) ? camera_.placeOf(point) : std::nullopt;
-  if (!seen || !std::isfinite(seen->x) || !std::isfinite(seen->y)) return;
+  if (!seen || !std::isfinite(seen->x) || !std::isfinite(seen->y)) return {};
   const Point2 at = place(*seen);
-  if (at.x > at_.x && at.x < at_.x + width_ && at.y > at_.y && at.y < at_.y + height_)
-    drawing.things.push_back(DrawnDisk{at, radius, color});
+  const bool within = at.x > at_.x && at.x < at_.x + width_ && at.y > at_.y && at.y < at_.y + height_;
+  return within ? std::optional(at) : std::nullopt;
+}
+
+void Panel::disk(Drawing& drawing, const Vec3& point, double radius, const Color& color) const {
+  if (const auto at = placeOf(point)) drawing.things.push_back(DrawnDisk{*at, radius, color});
+}
+
+void Panel::arrowHead(Drawing& drawing, const Vec3& from, const Vec3& to, const Color& color,
+                      double size) const {
+  constexpr Real kBefore = 0.5, kTip = 0.55;  // shares of the way
+  const auto before = placeOf(from + (to - from) * kBefore), tip = placeOf(from + (to - from) * kTip);
+  if (!before || !tip) return;
+  const double dx = tip->x - before->x, dy = tip->y - before->y, far = math::hypot(dx, dy);
+  if (far < 1) return;
+  const double x = dx / far * size, y = dy / far * size;
+  drawing.things.push_back(DrawnTriangle{
+      *tip, {tip->x - x - y / 2, tip->y - y + x / 2}, {tip->x - x + y / 2, tip->y - y - x / 2}, color});
 }
 
 /// In a projection that bends lines, or from two eyes: piece by piece.
@@ -85,6 +103,45 @@ Settings plainView(Settings settings) {
   settings.stereo = Stereo::off;
   settings.aperture = 0;
   return settings;
+}
+
+DrawnPicture colouredSketch(const World& world, const Scene& scene, const std::vector<std::uint32_t>& walls,
+                            const Vec3& inside, const Point2& at, double width, double height) {
+  constexpr int kMostLayers = 6;
+  constexpr Color kNothing(0.93, 0.95, 0.97);
+  std::vector<MaterialLook> looks;
+  for (const Material& material : scene.materials) looks.push_back(lookOf(material));
+  const auto lookAt = [&](const Found& found) {
+    const MaterialMix mix = world.materialMix(found);
+    const bool known = mix.count > 0 && mix.material[0] < looks.size();
+    return known ? looks[mix.material[0]] : MaterialLook{Color(0.7), 0};
+  };
+  const auto shaded = [&](const Ray& ray, const Found& found) {
+    const Real facing = std::abs(dot(world.surface(ray, found).normal, ray.direction));
+    return lookAt(found).color * (0.5 + 0.5 * facing / length(ray.direction));
+  };
+  Picture picture(static_cast<int>(width), static_cast<int>(height));
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      Color& pixel = picture.at(x, y) = kNothing;
+      const Ray ray = world.camera().ray({(x + 0.5) / picture.width, 1 - (y + 0.5) / picture.height});
+      const auto nearest = closestShown(world, ray, walls, inside);
+      if (!nearest) continue;
+      if (lookAt(*nearest).opacity >= 1) {
+        pixel = shaded(ray, *nearest);
+        continue;
+      }
+      const std::vector<Found> all = shownCrossings(world, ray, walls, inside);
+      const auto layers = std::min<std::size_t>(all.size(), kMostLayers);
+      const auto solid = std::find_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(layers),
+                                      [&](const Found& found) { return lookAt(found).opacity >= 1; });
+      auto layer = solid == all.end() ? solid : solid + 1;
+      while (layer != all.begin()) {
+        --layer;
+        pixel = lerp(lookAt(*layer).opacity, pixel, shaded(ray, *layer));
+      }
+    }
+  return {at, std::move(picture)};
 }
 
 DrawnPicture sketch(const World& world, const std::vector<std::uint32_t>& walls, const Vec3& inside,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "app/view/drawing.h"
@@ -22,6 +23,10 @@ class Panel {
 
   /// Nothing of a segment outside the view is drawn.
   void line(Drawing& drawing, Vec3 from, Vec3 to, const Color& color, double width, bool dashed) const;
+  /// The place of a point; nothing outside the view.
+  std::optional<Point2> placeOf(const Vec3& point) const;
+  /// A head at a share of the way, which shows where a ray goes.
+  void arrowHead(Drawing& drawing, const Vec3& from, const Vec3& to, const Color& color, double size) const;
   void disk(Drawing& drawing, const Vec3& point, double radius, const Color& color) const;
 
  private:
@@ -42,6 +47,10 @@ class Panel {
 
 /// The settings for a view of the scene from elsewhere: by a camera without a lens, that sees lines as lines.
 Settings plainView(Settings settings);
+
+/// The surfaces in the colours of their materials, glass as clear as it is, otherwise as sketch().
+DrawnPicture colouredSketch(const World& world, const Scene& scene, const std::vector<std::uint32_t>& walls,
+                            const Vec3& inside, const Point2& at, double width, double height);
 
 /// The surfaces as the world's camera sees them, shaded by how much they face the eye, without the light of
 /// the scene: of rooms with few samples by `path` there would be nothing but noise. Walls that hide the place

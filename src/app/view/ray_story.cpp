@@ -1,32 +1,48 @@
 #include "app/view/ray_story.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "app/explain/ray_segments.h"
 #include "app/explain/ray_view.h"
+#include "app/explain/ray_words.h"
 #include "app/view/panel.h"
 #include "app/view/room.h"
 #include "app/view/scene_model.h"
 #include "image/codecs/animated_png.h"
 #include "image/development/development.h"
+#include "image/letters.h"
 #include "math/elementary.h"
 
 namespace trace {
 namespace {
 
-constexpr double kWide = 760, kHigh = 540, kMargin = 16, kRowHigh = 20, kTree = 440;
-constexpr double kLetter = 7.6;  // width of a letter, about, in words of the usual height
+constexpr double kHigh = 600, kMargin = 16, kRowHigh = 24, kLetters = 17;
+constexpr double kAdds = 74, kEnded = 190, kTree = 620;  // widths of two columns, and of the whole tree
+
+/// An SVG's letters may be a little wider than ours.
+double wideOf(const std::string& words) { return 1.1 * lettersWidth(words, kLetters); }
 
 /// As much of the words as has room.
 std::string cut(const std::string& words, double room) {
-  const auto most = static_cast<std::size_t>(std::max(room / kLetter, 3.0));
-  return words.size() <= most ? words : words.substr(0, most - 2) + "..";
+  if (wideOf(words) <= room) return words;
+  std::string some = words;
+  while (some.size() > 1 && wideOf(some + "..") > room) some.pop_back();
+  return some + "..";
+}
+
+DrawnWords wordsAt(const Point2& at, const std::string& words) { return {at, words, kInk, kLetters}; }
+
+/// The colour of a light, dark enough to be seen on white.
+Color inkOf(const Light& light) {
+  const Color* color = light.color();
+  return color ? clamp01(*color / std::max(maxComponent(*color), 1e-9)) * 0.8 : Color(0.5);
 }
 
 DrawnPicture swatch(const Point2& at, const Color& color) {
-  constexpr int kSide = 14;
+  constexpr int kSide = 17;
   Picture square(kSide, kSide);
   for (int y = 0; y < kSide; ++y)
     for (int x = 0; x < kSide; ++x) {
@@ -62,24 +78,25 @@ Color shownColour(const Color& light, const Settings& settings) {
 }
 
 RayStory::RayStory(const TracedPixel& pixel, const Camera& view) : pixel_(pixel) {
+  constexpr Real kNarrowest = 0.8, kWidest = 2.2;
   Camera camera = view;
-  camera.aspectratio = kWide / kHigh;
+  camera.aspectratio = std::clamp(view.aspectratio, kNarrowest, kWidest);
+  wide_ = std::round(kHigh * camera.aspectratio);
   const World world = worldFrom(pixel, camera);
   const Vec3& inside = pixel.scene().camera.position;
   frame_ = world.camera();
-  surfaces_ = sketch(world, wallsAround(world, inside, frameOf(pixel.scene())), inside,
-                     {kMargin, kMargin + 1.5 * kRowHigh}, kWide, kHigh);
+  surfaces_ = colouredSketch(world, pixel.scene(), wallsAround(world, inside, frameOf(pixel.scene())), inside,
+                             {kMargin, kMargin + 1.5 * kRowHigh}, wide_, kHigh);
 }
 
 Drawing RayStory::after(int rays) const {
   Drawing drawing;
-  drawing.width = static_cast<int>(kWide + kTree + 3 * kMargin);
+  drawing.width = static_cast<int>(wide_ + kTree + 3 * kMargin);
   drawing.height = static_cast<int>(kHigh + 2 * kMargin + 5 * kRowHigh);
-  drawing.things.push_back(DrawnWords{{kMargin, kMargin},
-                                      "pixel " + std::to_string(pixel_.x) + "," + std::to_string(pixel_.y) +
-                                          ", " + std::to_string(std::min(rays, this->rays())) + " of " +
-                                          std::to_string(this->rays()) + " rays",
-                                      kInk});
+  drawing.things.push_back(wordsAt({kMargin, kMargin}, "pixel " + std::to_string(pixel_.x) + "," +
+                                                           std::to_string(pixel_.y) + ", " +
+                                                           std::to_string(std::min(rays, this->rays())) +
+                                                           " of " + std::to_string(this->rays()) + " rays"));
   addSpace(drawing, rays);
   addTree(drawing, rays);
   addSum(drawing, rays);
@@ -87,11 +104,12 @@ Drawing RayStory::after(int rays) const {
 }
 
 void RayStory::addSpace(Drawing& drawing, int rays) const {
-  const Panel panel(frame_, surfaces_.at, kWide, kHigh);
+  const Panel panel(frame_, surfaces_.at, wide_, kHigh);
   const RayTree& tree = pixel_.tree();
   const Real whole = std::max(maxComponent(tree.nodes.front().weight), 1e-30);
   drawing.things.push_back(panel.frame());
   drawing.things.push_back(surfaces_);
+  addThings(drawing, panel);
   for (const bool shadows : {true, false})  // below, so that they hide no others
     for (const RaySegment& segment : pixel_.segments) {
       const RayNode& node = rayAt(tree, segment.node);
@@ -99,6 +117,7 @@ void RayStory::addSpace(Drawing& drawing, int rays) const {
       const Real share = std::clamp(maxComponent(node.weight) / whole, 0.0, 1.0);
       const double width = 1.5 + 3.5 * std::sqrt(share) + (segment.node == rays - 1 ? 1.5 : 0);
       panel.line(drawing, segment.from, segment.to, look(segment.looks).color, width, segment.leaves);
+      panel.arrowHead(drawing, segment.from, segment.to, look(segment.looks).color, 8 + 2 * width);
       if (node.hit) panel.disk(drawing, node.hit->surface.point, 4, look(segment.looks).color);
     }
   panel.disk(drawing, tree.nodes.front().ray.origin, 5, kInk);
@@ -106,26 +125,64 @@ void RayStory::addSpace(Drawing& drawing, int rays) const {
       DrawnFrame{{0, 0}, static_cast<double>(drawing.width), static_cast<double>(drawing.height)});
 }
 
+/// The lights that have a place, and the camera.
+void RayStory::addThings(Drawing& drawing, const Panel& panel) const {
+  constexpr int kBeams = 8;
+  constexpr double kInner = 7, kOuter = 15;  // pixels
+  const Scene& scene = pixel_.scene();
+  for (const LightSource& source : scene.lights) {
+    const Vec3* position = source.light.position();
+    const auto at = position ? panel.placeOf(*position) : std::nullopt;
+    if (!at) continue;
+    const Color color = inkOf(source.light);
+    for (int i = 0; i < kBeams; ++i) {
+      const double x = math::cos(2 * kPi * i / kBeams), y = math::sin(2 * kPi * i / kBeams);
+      const Point2 from{at->x + x * kInner, at->y + y * kInner}, to{at->x + x * kOuter, at->y + y * kOuter};
+      drawing.things.push_back(DrawnLine{from, to, kInk, 4});
+      drawing.things.push_back(DrawnLine{from, to, color, 2});
+    }
+    drawing.things.push_back(DrawnDisk{*at, 5, kInk});
+    drawing.things.push_back(DrawnDisk{*at, 4, color});
+  }
+  const RayNode& first = pixel_.tree().nodes.front();
+  const CameraFrame own = frame(scene.camera, pixel_.session->settings().cameraAxes);
+  const Real far = first.hit ? length(first.hit->surface.point - own.eye) : length(frame_.eye - own.eye);
+  const Real reach = 0.25 * far / std::max(length(own.look), 1e-30);
+  std::array<Vec3, 4> corners;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Real x = i == 0 || i == 3 ? -0.5 : 0.5, y = i < 2 ? -0.5 : 0.5;
+    corners[i] = own.eye + (own.look + own.right * x + own.up * y) * reach;
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    panel.line(drawing, own.eye, corners[i], kInk, 1, false);
+    panel.line(drawing, corners[i], corners[(i + 1) % 4], kInk, 1, false);
+  }
+}
+
 void RayStory::addTree(Drawing& drawing, int rays) const {
-  constexpr double kIndent = 14, kShare = 60;
+  constexpr double kIndent = 14;
   constexpr int kMostLevels = 10;
-  const double left = kWide + 2 * kMargin, top = kMargin + 1.5 * kRowHigh;
+  const double left = wide_ + 2 * kMargin, top = kMargin + 1.5 * kRowHigh;
+  const double adds = left + kTree - kAdds - kEnded, ended = left + kTree - kEnded;
   const int rows = static_cast<int>(kHigh / kRowHigh), last = std::min(rays, this->rays());
   const int first = std::max(0, last - rows);  // the latest
+  drawing.things.push_back(wordsAt({left, kMargin}, "ray: what it met"));
+  drawing.things.push_back(wordsAt({adds, kMargin}, "adds"));
+  drawing.things.push_back(wordsAt({ended, kMargin}, "ended"));
   for (int i = first; i < last; ++i) {
     const RayLook& looks = look(pixel_.looks(i));
     const double y = top + kRowHigh * (i - first),
                  x = left + kIndent * std::min(pixel_.level[static_cast<std::size_t>(i)], kMostLevels);
-    drawing.things.push_back(DrawnLine{{x, y + 7}, {x + 12, y + 7}, looks.color, 4});
+    drawing.things.push_back(DrawnLine{{x, y + 9}, {x + 12, y + 9}, looks.color, 4});
     const std::string met = metBy(pixel_.tree(), pixel_.scene(), i);
-    const double room = left + kTree - kShare - x - 20;
     drawing.things.push_back(
-        DrawnWords{{x + 20, y}, cut(std::string(looks.name) + (met.empty() ? "" : ": " + met), room), kInk});
+        wordsAt({x + 20, y}, cut(std::string(looks.name) + (met.empty() ? "" : ": " + met), adds - x - 28)));
     const RayNode& node = rayAt(pixel_.tree(), i);
-    if (node.kind == RayKind::shadow || node.kind == RayKind::light) continue;
+    drawing.things.push_back(wordsAt({ended, y}, cut(shortEnd(node), kEnded)));
+    if (node.kind == RayKind::light) continue;
     char text[24];
     std::snprintf(text, sizeof text, "%.4f", share(node));
-    drawing.things.push_back(DrawnWords{{left + kTree - kShare, y}, text, kInk});
+    drawing.things.push_back(wordsAt({adds, y}, text));
   }
 }
 
@@ -134,15 +191,15 @@ void RayStory::addSum(Drawing& drawing, int rays) const {
   const bool all = rays >= this->rays();
   double x = kMargin, y = kMargin + 2 * kRowHigh + kHigh;
   const double most = drawing.width - kMargin;
-  const std::string last = rays < 1 ? "" : sentence(rayAt(pixel_.tree(), rays - 1), pixel_.scene());
+  const std::string last = rays < 1 ? "" : stepOf(pixel_.tree(), pixel_.scene(), rays - 1);
   const std::string said = all ? pixel_.why.sentence : last;
-  drawing.things.push_back(DrawnWords{{x, y}, cut(said, most - x), kInk});
+  drawing.things.push_back(wordsAt({x, y}, cut(said, most - x)));
   y += 1.2 * kRowHigh;
   const auto add = [&](const Color& light, const std::string& words) {
-    const double wide = 24 + kLetter * static_cast<double>(words.size() + 2);
+    const double wide = 36 + wideOf(words);
     if (x + wide > most && x > kMargin) x = kMargin, y += kRowHigh;
     drawing.things.push_back(swatch({x, y}, shownColour(light, session.settings())));
-    drawing.things.push_back(DrawnWords{{x + 20, y}, cut(words, most - x - 20), kInk});
+    drawing.things.push_back(wordsAt({x + 24, y}, cut(words, most - x - 24)));
     x += wide;
   };
   const std::vector<WhySummand>& sum = pixel_.why.sum;
@@ -155,7 +212,7 @@ void RayStory::addSum(Drawing& drawing, int rays) const {
 
 std::string filmOf(const RayStory& story) {
   constexpr int kMostPictures = 60;
-  constexpr double kEach = 0.7, kLast = 4;  // seconds
+  constexpr double kEach = 2, kLast = 8;  // seconds: time to speak
   AnimatedPng film;
   const int step = std::max(1, (story.rays() + kMostPictures - 1) / kMostPictures);
   for (int rays = step; rays < story.rays(); rays += step)

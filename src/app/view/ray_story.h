@@ -8,14 +8,15 @@
 
 #include "app/explain/pixel_inspector.h"
 #include "app/view/drawing.h"
+#include "app/view/panel.h"
 #include "shading/cameras/camera.h"
 
 namespace trace {
 
 class RayStory {
  public:
-  /// `view`: the camera from which the scene is seen. Shades the surfaces once, which takes a moment.
-  /// Precondition: the pixel has rays.
+  /// `view`: the camera from which the scene is seen; its aspect ratio is that of the view. Shades the
+  /// surfaces once, which takes a moment. Precondition: the pixel has rays.
   RayStory(const TracedPixel& pixel, const Camera& view);
 
   int rays() const { return static_cast<int>(pixel_.tree().nodes.size()); }
@@ -25,10 +26,12 @@ class RayStory {
 
  private:
   void addSpace(Drawing& drawing, int rays) const;
+  void addThings(Drawing& drawing, const Panel& panel) const;
   void addTree(Drawing& drawing, int rays) const;
   void addSum(Drawing& drawing, int rays) const;
 
   TracedPixel pixel_;
+  double wide_ = 0;  // width of the view, in pixels
   CameraFrame frame_;
   DrawnPicture surfaces_;
 };

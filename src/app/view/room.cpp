@@ -22,6 +22,25 @@ Vec3 lookAlong(int i) {
   return {r * math::cos(angle), y, r * math::sin(angle)};
 }
 
+bool isShown(const World& world, const Ray& ray, const Found& found, const std::vector<std::uint32_t>& walls,
+             const Vec3& inside) {
+  if (!std::binary_search(walls.begin(), walls.end(), found.object)) return true;
+  const SurfacePoint surface = Hit(world, ray, found).surface;
+  return !parts(surface.normal, surface.point, ray.origin, inside);
+}
+
+/// So many of the points are seen from the eye.
+std::size_t seenFrom(const Vec3& eye, const std::vector<Vec3>& points, const World& world,
+                     const std::vector<std::uint32_t>& walls, const Vec3& inside) {
+  constexpr Real kBehind = 0.999;  // share of the distance
+  return static_cast<std::size_t>(std::count_if(points.begin(), points.end(), [&](const Vec3& point) {
+    const Real distance = length(point - eye);
+    if (!(distance > 0)) return true;
+    const auto found = closestShown(world, {eye, (point - eye) / distance}, walls, inside);
+    return !found || found->t >= kBehind * distance;
+  }));
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> wallsAround(const World& world, const Vec3& inside, const Box3& frame) {
@@ -42,6 +61,18 @@ std::vector<std::uint32_t> wallsAround(const World& world, const Vec3& inside, c
   return {walls.begin(), walls.end()};
 }
 
+std::vector<Found> shownCrossings(const World& world, const Ray& ray, const std::vector<std::uint32_t>& walls,
+                                  const Vec3& inside) {
+  std::vector<Found> all;
+  Statistics statistics;
+  world.crossings(ray, kInfinity, Faces::both, statistics, [&](const Found& found) {
+    if (isShown(world, ray, found, walls, inside)) all.push_back(found);
+    return false;
+  });
+  std::sort(all.begin(), all.end(), [](const Found& a, const Found& b) { return a.before(b); });
+  return all;
+}
+
 std::optional<Found> closestShown(const World& world, const Ray& ray, const std::vector<std::uint32_t>& walls,
                                   const Vec3& inside) {
   Statistics statistics;
@@ -49,14 +80,30 @@ std::optional<Found> closestShown(const World& world, const Ray& ray, const std:
   std::optional<Found> nearest;
   world.crossings(ray, kInfinity, Faces::both, statistics, [&](const Found& found) {
     if (nearest && !found.before(*nearest)) return false;
-    if (std::binary_search(walls.begin(), walls.end(), found.object)) {
-      const SurfacePoint surface = Hit(world, ray, found).surface;
-      if (parts(surface.normal, surface.point, ray.origin, inside)) return false;
-    }
-    nearest = found;
+    if (isShown(world, ray, found, walls, inside)) nearest = found;
     return false;
   });
   return nearest;
+}
+
+OrbitCamera inSight(const OrbitCamera& orbit, const std::vector<Vec3>& points, const World& world,
+                    const std::vector<std::uint32_t>& walls, const Vec3& inside) {
+  constexpr std::size_t kMostPoints = 40;
+  std::vector<Vec3> some(points.begin(),
+                         points.begin() + static_cast<std::ptrdiff_t>(std::min(points.size(), kMostPoints)));
+  OrbitCamera best = orbit;
+  std::size_t most = seenFrom(orbit.frame(1).eye, some, world, walls, inside);
+  for (const Real azimuth : {0.0, -0.4, 0.4, -0.8, 0.8, -1.5, 1.5, 2.3, 3.1})  // radians
+    for (const Real elevation : {0.0, -0.3, -0.6, -1.2, 0.3}) {
+      if (most == some.size()) return best;
+      OrbitCamera turned = orbit;
+      turned.turn(azimuth, elevation);
+      const std::size_t seen = seenFrom(turned.frame(1).eye, some, world, walls, inside);
+      if (seen <= most) continue;
+      most = seen;
+      best = turned;
+    }
+  return best;
 }
 
 }  // namespace trace

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/view/orbit_camera.h"
 #include "math/box.h"
 #include "render/world/world.h"
 
@@ -22,8 +23,16 @@ inline bool parts(const Vec3& normal, const Vec3& point, const Vec3& eye, const 
   return dot(normal, eye - point) * dot(normal, inside - point) < 0;
 }
 
+/// The crossings of the ray that are shown, the nearest first.
+std::vector<Found> shownCrossings(const World& world, const Ray& ray, const std::vector<std::uint32_t>& walls,
+                                  const Vec3& inside);
+
 /// The nearest thing on the ray that is shown.
 std::optional<Found> closestShown(const World& world, const Ray& ray, const std::vector<std::uint32_t>& walls,
                                   const Vec3& inside);
+
+/// Turned about its target, no farther than needed, so that surfaces hide as few of the points as possible.
+OrbitCamera inSight(const OrbitCamera& orbit, const std::vector<Vec3>& points, const World& world,
+                    const std::vector<std::uint32_t>& walls, const Vec3& inside);
 
 }  // namespace trace

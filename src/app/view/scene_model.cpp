@@ -32,6 +32,33 @@ Color lookOf(const Phong& m) {
   return lerp(kBlack, own + other * (1 - maxComponent(own)), Color(1));
 }
 
+/// The mean colour of a texture over the places of a cube.
+Color meanOf(const Texture& texture) {
+  constexpr int kPlaces = 64;
+  constexpr Real kSteps[] = {0.8191725134, 0.6710436067, 0.5497004779};  // spread evenly (Roberts 2018)
+  Color sum;
+  for (int i = 0; i < kPlaces; ++i) {
+    const auto at = [&](int axis) { return std::fmod((i + 0.5) * kSteps[axis], 1.0); };
+    TexturePlace place{};
+    place.point = Vec3{at(0), at(1), at(2)} * 2 - Vec3{1, 1, 1};
+    place.uv = {at(0), at(1)};
+    sum += texture.at(place);
+  }
+  return sum / kPlaces;
+}
+
+/// The nearest Phong material, with the mean of a texture in place of its colour.
+Phong plainPhong(const Material& material) {
+  Phong phong = phongOf(material);
+  for (const std::string_view field : {kDiffuse, kColor})
+    if (const Texture* texture = textureOf(material.textures, field)) {
+      const Color mean = meanOf(*texture);
+      phong.diffuse *= mean;
+      phong.ambient *= mean;
+    }
+  return phong;
+}
+
 Real opacityOf(const Phong& m) {
   constexpr Real kLeast = 0.12;  // opacity of the clearest glass, which must stay visible
   return m.transmits() ? std::clamp(1 - maxComponent(m.transmissive), kLeast, 1.0) : 1;
@@ -123,6 +150,11 @@ Box3 frameAround(const std::vector<Box3>& boxes, const Vec3& eye) {
 
 }  // namespace
 
+MaterialLook lookOf(const Material& material) {
+  const Phong phong = plainPhong(material);
+  return {lookOf(phong), opacityOf(phong)};
+}
+
 Box3 frameOf(const Scene& scene) {
   if (!scene.uses.empty()) return frameOf(firstCopies(scene, kMostDrawnCopies));
   return frameAround(drawnBoxes(scene), scene.camera.position);
@@ -183,10 +215,10 @@ SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled, d
     }
     for (const auto& [material, firsts] : triangles) {
       if (material >= scene.materials.size()) continue;  // as if nothing were there
-      const Phong phong = phongOf(scene.materials[material]);
+      const MaterialLook look = lookOf(scene.materials[material]);
       const std::uint32_t number = i < given.objects.size() ? i : ScenePart::kCopy;
       model.parts.push_back(
-          {number, lookOf(phong), opacityOf(phong), model.corners.size() / 6, 3 * firsts.size(), box});
+          {number, look.color, look.opacity, model.corners.size() / 6, 3 * firsts.size(), box});
       for (const std::size_t first : firsts)
         for (std::size_t corner = first; corner < first + 3; ++corner) {
           const auto p = model.local(object.worldFromObject * (*corners)[corner].point);

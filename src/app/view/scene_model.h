@@ -41,6 +41,13 @@ struct SceneModel {
   }
 };
 
+/// The look of a material in white light: the mean colour of its texture, and 1 less what it transmits.
+struct MaterialLook {
+  Color color;
+  Real opacity = 1;
+};
+MaterialLook lookOf(const Material& material);
+
 /// Around the objects that have an end and the camera, except for those so far out that the others would be a
 /// dot beside them. Empty if there are none.
 Box3 frameOf(const Scene& scene);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <utility>
 
 #include "base/match.h"
 #include "base/text.h"
@@ -98,8 +100,9 @@ std::string words(const RayEnd& end, const RayNode& node, const Scene& scene) {
                         if (node.filters.empty()) return "reached the light";
                         const bool none = isBlack(node.radiance);
                         std::string names;
+                        std::optional<std::uint32_t> last;  // light enters and leaves the same glass
                         for (const Filter& filter : node.filters)
-                          if (!filter.shadowless)
+                          if (!filter.shadowless && std::exchange(last, filter.object) != filter.object)
                             names += (names.empty() ? "" : ", ") + fillingName(scene, filter.object);
                         if (names.empty()) return "reached the light";
                         return (none ? "absorbed by " : "reached the light, filtered by ") + names;

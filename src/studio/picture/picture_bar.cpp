@@ -120,12 +120,15 @@ void drawBar(Studio& studio) {
     return;
   }
   int index = static_cast<int>(view.view);
+  ImGui::SameLine();
+  roomFor(characters(20));
   ImGui::SetNextItemWidth(characters(20));
   if (ImGui::Combo("##view", &index, kViewNames, static_cast<int>(std::size(kViewNames))))
     view.view = static_cast<View>(index);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("how the two pictures are shown (C)");
   if (view.view == View::difference || view.view == View::falseColour) {
     ImGui::SameLine();
+    roomFor(characters(14));
     ImGui::SetNextItemWidth(characters(14));
     ImGui::DragFloat("##magnify", &view.magnify, std::max(0.1f, view.magnify / 100), 1, 255, "x %.0f");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("drag: by which differences are magnified");

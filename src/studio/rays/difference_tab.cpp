@@ -39,9 +39,9 @@ void drawDifference(Studio& studio, const TracedPixel& traced) {
   ImGui::TextDisabled("%d of %d rays differ", static_cast<int>(differ), static_cast<int>(pairs.size()));
   if (!ImGui::BeginTable("pairs", 3, kRayTable)) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, 0.34f);
-  ImGui::TableSetupColumn("met now", ImGuiTableColumnFlags_WidthStretch, 0.26f);
-  ImGui::TableSetupColumn("difference", ImGuiTableColumnFlags_WidthStretch, 0.4f);
+  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, 0.27f);
+  ImGui::TableSetupColumn("met now", ImGuiTableColumnFlags_WidthStretch, 0.2f);
+  ImGui::TableSetupColumn("difference", ImGuiTableColumnFlags_WidthStretch, 0.53f);
   ImGui::TableHeadersRow();
   ImGuiListClipper clipper;
   clipper.Begin(static_cast<int>(pairs.size()));

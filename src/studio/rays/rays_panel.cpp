@@ -26,7 +26,7 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
   RaysView& view = studio.rays;
   PixelInspector& inspector = studio.workspace.inspector;
   const auto samples = static_cast<int>(pixel.explanation.samples.size());
-  const bool roomy = ImGui::GetContentRegionAvail().x >= characters(60);
+  const bool roomy = ImGui::GetContentRegionAvail().x >= characters(samples > 1 ? 84 : 60);
   if (samples > 1 || roomy) {
     ImGui::AlignTextToFramePadding();
     ImGui::Text("pixel %d, %d", pixel.x, pixel.y);
@@ -164,10 +164,10 @@ void saveRays(Studio& studio, const std::string& file) {
 
 void saveStory(Studio& studio, const std::string& file) {
   const TracedPixel& pixel = *shownPixel(studio);
-  constexpr Real kAspect = 1.4;
+  const Real aspect = studio.rays.aspect;
   const Document& document = studio.workspace.document;
   const Camera camera = studio.rays.fromCamera ? cameraFor(document.scene(), document.settings())
-                                               : cameraOf(studio.rays.orbit.frame(kAspect), kAspect);
+                                               : cameraOf(studio.rays.orbit.frame(aspect), aspect);
   studio.workspace.saveBy(file, [file, pixel, camera] {
     const RayStory story(pixel, camera);
     const std::string kind = std::filesystem::path(file).extension().string();
@@ -286,13 +286,10 @@ void drawRays(Studio& studio) {
   const PixelInspector& inspector = studio.workspace.inspector;
   const TracedPixel* pixel = shownPixel(studio);
   const float height = ImGui::GetContentRegionAvail().y;
-  const bool low = height < 35 * ImGui::GetTextLineHeight();  // then the tree needs every line
-  ImGui::BeginChild("space",
-                    {0, height * (!pixel              ? 0.88f
-                                  : low               ? 0.34f
-                                  : view.pyramid.open ? 0.38f
-                                                      : 0.45f)},
-                    false, ImGuiWindowFlags_NoScrollWithMouse);
+  const bool low = height < 35 * ImGui::GetTextLineHeight();    // then the tree needs every line
+  const float least = std::min(characters(30), 0.5f * height);  // below that nothing is recognized
+  const float share = !pixel ? 0.88f : low ? 0.34f : view.pyramid.open ? 0.38f : 0.45f;
+  ImGui::BeginChild("space", {0, std::max(least, share * height)}, false, ImGuiWindowFlags_NoScrollWithMouse);
   drawSpace(studio);
   ImGui::EndChild();
   if (!inspector.traced()) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/explain/ray_words.h"
 #include "studio/rays/ray_rows.h"
 #include "studio/space/rays_view.h"
 #include "studio/widgets/field_editor.h"
@@ -36,10 +37,10 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
   const bool ends = ImGui::GetContentRegionAvail().x >= characters(kWordsInFour);
   if (!ImGui::BeginTable(ends ? "tree" : "narrow tree", ends ? 4 : 3, kRayTable, {0, -below})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, ends ? 0.46f : 0.6f);
-  ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, ends ? 0.26f : 0.4f);
+  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, ends ? 0.44f : 0.6f);
+  ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, ends ? 0.24f : 0.4f);
   ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(ends ? 9 : 7));
-  if (ends) ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.28f);
+  if (ends) ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.32f);
   columnHeads({"its kind and its secondary rays", "the object, light or medium that it came to",
                "the largest channel of its contribution to the pixel: its radiance times its weight there",
                "why it ended, or how it continues"},
@@ -97,13 +98,14 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
       ImGui::TableNextColumn();
       cutText(metBy(pixel.tree(), pixel.scene(), i));
       ImGui::TableNextColumn();
-      if (node.kind != RayKind::shadow && node.kind != RayKind::light) {
+      if (node.kind != RayKind::light) {
         ImGui::Text("%.4f", share(node));
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", channels(node.weight * node.radiance).c_str());
       }
       if (ends) {
         ImGui::TableNextColumn();
-        cutText(sentence(node, pixel.scene()));
+        rowName(shortEnd(node));
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", sentence(node, pixel.scene()).c_str());
       }
       ImGui::PopID();
     }

@@ -23,13 +23,6 @@ ImVec4 swatchColour(const Color& light, const Settings& settings) {
   return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1};
 }
 
-/// Without what the tree says: that it is light, and its place.
-std::string summandName(const WhySummand& term) {
-  constexpr std::string_view kLight = "light ";
-  const std::string name = term.name.substr(0, term.name.find(" ("));
-  return name.starts_with(kLight) ? name.substr(kLight.size()) : name;
-}
-
 /// On this line if it fits, else on the next.
 void beside(float wide) {
   ImGui::SameLine();
@@ -80,7 +73,7 @@ void drawSum(Studio& studio, const TracedPixel& pixel) {
   swatch("##sum", "=", step < 0 || step >= static_cast<int>(studio.rays.rays) ? whole : sumAfter(sum, step));
   landmark("sum");
   for (std::size_t i = 0; i < sum.size(); ++i) {
-    const std::string name = summandName(sum[i]) + (i + 1 < sum.size() ? "  +" : "");
+    const std::string name = sum[i].brief + (i + 1 < sum.size() ? "  +" : "");
     beside(gaps + ImGui::CalcTextSize(name.c_str()).x);
     ImGui::PushID(static_cast<int>(i));
     constexpr float kToCome = 0.3f;

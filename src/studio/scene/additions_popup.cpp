@@ -10,7 +10,6 @@
 
 #include "app/editing/placing.h"
 #include "app/view/scene_model.h"
-#include "base/find_field.h"
 #include "geometry/mesh/tessellate.h"
 #include "render/world/hit.h"
 #include "scene/picture_size.h"
@@ -34,22 +33,56 @@ Material newMaterial() {
   return {"", grey, {}};
 }
 
-/// On what the camera looks at.
+constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+
+/// The surface in the middle of the picture.
+struct Middle {
+  CameraFrame camera;
+  std::optional<SurfacePoint> there;
+  Real ahead;  ///< the distance to the middle of all, for where nothing is
+};
+Middle middleOf(const Session& session) {
+  const World& world = session.world();
+  const Ray ray = world.camera().ray({0.5, 0.5});
+  Middle middle{frame(cameraFor(session.scene(), session.settings()), session.settings().cameraAxes), {}, 5};
+  Statistics statistics;
+  if (const auto found = world.closest(ray, Faces::both, statistics))
+    middle.there = Hit(world, ray, *found).surface;
+  const Box3 all = frameOf(session.scene());
+  if (!all.empty()) middle.ahead = std::max(length(all.center() - middle.camera.eye), 1e-30);
+  return middle;
+}
+
+/// On what the camera looks at, and in no other object.
 Affine inSight(const Studio& studio, const Shape& shape) {
   const auto session = studio.workspace.render.session();
   if (!session) return {};
-  const World& world = session->world();
-  const Camera& camera = session->scene().camera;
-  const CameraFrame view =
-      frame(cameraFor(session->scene(), session->settings()), session->settings().cameraAxes);
-  const Ray ray = world.camera().ray({0.5, 0.5});
+  const Middle middle = middleOf(*session);
+  const Vec3& updir = session->scene().camera.updir;
+  const Box3 bounds = drawnBounds(shape, kEverywhere);
+  const Affine placed = placedInSight(bounds, middle.camera, updir, middle.there, middle.ahead);
+  if (bounds.empty() || bounds.unbounded()) return placed;
+  std::vector<Box3> others;
+  for (const Object& object : session->scene().objects)
+    if (const Box3 box = drawnBounds(object.shape, kEverywhere); !box.empty() && !box.unbounded())
+      others.push_back(object.worldFromObject * box);
+  return Affine::translation(freedFrom(others, placed * bounds, middle.camera, updir)) * placed;
+}
+
+/// Above and to the left of what the camera looks at, or less far where something is in between.
+void shineOnMiddle(const Studio& studio, Light& light) {
+  const auto session = studio.workspace.render.session();
+  const Camera& camera = studio.workspace.document.scene().camera;
+  if (!session) return aimLight(light, camera.position, camera.position + camera.viewdir);
+  const Middle middle = middleOf(*session);
+  const Vec3 target =
+      middle.there ? middle.there->point : middle.camera.eye + normalize(middle.camera.look) * middle.ahead;
+  const Vec3 away = placeOfLight(middle.camera, camera.updir, target) - target;
+  constexpr Real kStart = 0.02, kBefore = 0.8;  // shares of the way
+  const Ray ray{target + away * kStart, away};
   Statistics statistics;
-  std::optional<SurfacePoint> there;
-  if (const auto found = world.closest(ray, Faces::both, statistics)) there = Hit(world, ray, *found).surface;
-  constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
-  const Box3 all = frameOf(session->scene());
-  const Real ahead = all.empty() ? 5 : std::max(length(all.center() - view.eye), 1e-30);
-  return placedInSight(drawnBounds(shape, kEverywhere), view, camera.updir, there, ahead);
+  const auto found = session->world().closest(ray, Faces::both, statistics);
+  aimLight(light, target + away * (found && found->t < 1 ? kBefore * found->t : 1), target);
 }
 
 /// The scene's material of that name, or the library's, which the scene gets.
@@ -72,18 +105,18 @@ void add(Studio& studio, const Addition& addition) {
   std::size_t index = 0;
   switch (addition.kind) {
     case Addition::Kind::shape: {
-      if (scene.materials.empty()) scene.materials.push_back(newMaterial());
+      scene.materials.push_back(newMaterial());  // its own: others keep their colours
+      const auto own = static_cast<std::uint32_t>(scene.materials.size() - 1);
       Shape shape(rowCalled<ShapeType>(name));
       const Affine placed = inSight(studio, shape);
-      scene.objects.push_back({"", std::move(shape), placed, 0, {}});
+      scene.objects.push_back({"", std::move(shape), placed, own, {}});
       index = scene.objects.size() - 1;
       break;
     }
     case Addition::Kind::light: {
-      Light light(rowCalled<LightType>(name));
-      if (Color* color = editableValue<Color>(light, "color")) *color = Color(1);
-      if (Vec3* position = editableValue<Vec3>(light, "position")) *position = scene.camera.position;
-      scene.lights.push_back({std::move(light), {}});
+      Light added(rowCalled<LightType>(name));
+      shineOnMiddle(studio, added);
+      scene.lights.push_back({std::move(added), {}});
       kind = Selected::light;
       index = scene.lights.size() - 1;
       break;

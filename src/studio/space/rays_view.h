@@ -108,7 +108,8 @@ struct RaysView {
   std::string orbitFile;   ///< the scene file that `orbit` was set for
   std::string orbitGuess;  ///< the same, before there is a World to see it with
   OrbitCamera orbit;
-  Real size = 1;  ///< radius of what is looked at: of lights, normals and rays that leave the scene
+  Real aspect = 1.4;  ///< width of the view / its height
+  Real size = 1;      ///< radius of what is looked at: of lights, normals and rays that leave the scene
   bool fromCamera = false;
   std::weak_ptr<const Session> wallsOf;  ///< for which the walls were found
   std::vector<std::uint32_t>
@@ -127,9 +128,11 @@ struct RaysView {
   bool inStep(int node) const { return step < 0 || node < step; }
 };
 
-/// In a dark window the colours of the table are lightened.
+/// In a dark window the colours of the table are lightened; the grey of camera rays is nearly white there,
+/// for many surfaces are grey.
 inline Color colourOf(RayLooks looks, bool light) {
-  return light ? look(looks).color : lerp(0.35, look(looks).color, Color(1));
+  return light ? look(looks).color
+               : lerp(looks == RayLooks::camera ? 0.9 : 0.35, look(looks).color, Color(1));
 }
 
 struct Studio;

@@ -131,15 +131,15 @@ void addNormals(const SceneModel& model, Real size, const Color& colour, Pen& pe
 void addArrow(const RaySegment& segment, const Vec3& eye, const Color& c, float opacity, float width,
               Pen& pen) {
   constexpr Real kPlace = 0.55, kLong = 0.012, kLonger = 0.006, kWide = 0.5;
-  constexpr int kStrokes = 4;  // on each side
+  const int strokes = 4 + static_cast<int>(2 * width);  // on each side; close enough to fill a large head
   const Vec3 along = segment.to - segment.from, tip = segment.from + along * kPlace;
   const Real far = length(along),
              size = std::min((kLong + kLonger * static_cast<Real>(width)) * length(tip - eye), 0.25 * far);
   const Vec3 across = cross(along, tip - eye);
   if (!(far > 0) || !(length(across) > 0)) return;
   const Vec3 back = tip - along * (size / far), side = across * (kWide * size / length(across));
-  for (int i = -kStrokes; i <= kStrokes; ++i)
-    pen.line(tip, back + side * (static_cast<Real>(i) / kStrokes), c, opacity, 1.5f);
+  for (int i = -strokes; i <= strokes; ++i)
+    pen.line(tip, back + side * (static_cast<Real>(i) / strokes), c, opacity, 1.5f);
 }
 
 void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, const Vec3& eye, Pen& pen) {

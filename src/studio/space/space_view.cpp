@@ -24,7 +24,7 @@ namespace {
 
 constexpr float kNear = 6;          // pixels from a ray that count as on it
 constexpr float kHidden = 0.6f;     // opacity of what lies behind surfaces
-constexpr float kNamedLegend = 46;  // characters across a view whose legend has names
+constexpr float kNamedLegend = 38;  // characters across a view whose legend has names
 
 /// Asks for the scene's triangles when they have changed, and takes those that have come. Those of another
 /// scene are gone at once.
@@ -98,7 +98,16 @@ void frameRays(Studio& studio) {
   const Vec3 room{std::max(0.0, least.x - box.size().x / 2), std::max(0.0, least.y - box.size().y / 2),
                   std::max(0.0, least.z - box.size().z / 2)};
   box = {box.low - room, box.high + room};
-  if (length(box.size()) < 8 * view.size) view.orbit.lookAt(box);
+  if (!(length(box.size()) < 8 * view.size)) return;
+  view.orbit.lookAt(box);
+  const auto session = studio.workspace.render.session();
+  if (!session) return;
+  std::vector<Vec3> hits;
+  for (const RayNode& node : pixel->tree().nodes)
+    if (node.hit) hits.push_back(node.hit->surface.point);
+  view.orbit =
+      inSight(view.orbit, hits, session->world(), view.roomOpened ? view.walls : std::vector<std::uint32_t>{},
+              session->scene().camera.position);
 }
 
 void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
@@ -214,10 +223,10 @@ void drawHovered(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2
 /// The scene's light that is drawn at the cursor; none if there is none.
 std::optional<std::size_t> lightUnderCursor(const Studio& studio, const Matrix4& matrix, ImVec2 low,
                                             ImVec2 size) {
-  constexpr float kReach = 10;  // pixels
+  constexpr float kNearLight = 10;  // pixels
   const std::vector<LightSource>& lights = studio.workspace.document.scene().lights;
   std::optional<std::size_t> nearest;
-  float least = kReach * studio.theme.scale;
+  float least = kNearLight * studio.theme.scale;
   if (!studio.rays.lightsShown) return {};
   for (std::size_t i = 0; i < lights.size(); ++i)
     if (const Vec3* position = lights[i].light.position()) {
@@ -254,7 +263,7 @@ void drawLightsBeyond(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 
         ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1));
     ImGui::SetCursorScreenPos({mark.x - side, mark.y - side});
     ImGui::PushID(static_cast<int>(i));
-    if (ImGui::InvisibleButton("light beyond", {2 * side, 2 * side}))
+    if (ImGui::InvisibleButton("light beyond", {2 * side, 2 * side}) && !studio.stage)
       studio.select(Studio::Selected::light, i);
     ImGui::PopID();
     landmark("light beyond " + std::to_string(i));
@@ -500,11 +509,11 @@ void drawSpace(Studio& studio) {
                                         ImGui::GetColorU32(ImGuiCol_TextDisabled), text);
     return;
   }
-  const Real aspect = size.x / size.y;
+  const Real aspect = view.aspect = size.x / size.y;
   const CameraFrame camera =
       frame(cameraFor(document.scene(), document.settings()), document.settings().cameraAxes);
   const SpaceFrame before{low, size, view.fromCamera ? fitted(camera, aspect) : view.orbit.frame(aspect)};
-  const bool holds = dragGizmo(studio, before);
+  const bool holds = !studio.stage && dragGizmo(studio, before);
   if (!holds) moveCamera(studio, fitted(camera, aspect), size);
   const CameraFrame world = view.fromCamera ? fitted(camera, aspect) : view.orbit.frame(aspect);
   CameraFrame local = world;
@@ -551,7 +560,7 @@ void drawSpace(Studio& studio) {
                                        {low.x + size.x, low.y + size.y}, {0, 1}, {1, 0});
   view.coarse = !held && view.drawer->coarse();
 
-  const bool onHandle = drawGizmo(studio, {low, size, world});
+  const bool onHandle = !studio.stage && drawGizmo(studio, {low, size, world});
   if (hovered && !ImGui::IsMouseDown(0) && !onHandle) {
     const int under = rayUnderCursor(studio, matrix, low, size);
     if (under >= 0) {
@@ -559,7 +568,7 @@ void drawSpace(Studio& studio) {
       if (under != view.hoveredBefore) view.scrollTo = under;
       if (clicked) view.selected = under;
     }
-    if (clicked && under < 0) {
+    if (clicked && under < 0 && !studio.stage) {
       if (const auto light = lightUnderCursor(studio, matrix, low, size))
         studio.select(Studio::Selected::light, *light);
       else

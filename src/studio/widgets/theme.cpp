@@ -51,9 +51,10 @@ void setColours(const Shades& s) {
   set(s.frameHovered, {ImGuiCol_FrameBgHovered, ImGuiCol_ButtonHovered, ImGuiCol_ScrollbarGrab});
   set(s.frameActive, {ImGuiCol_FrameBgActive, ImGuiCol_ButtonActive, ImGuiCol_ScrollbarGrabHovered,
                       ImGuiCol_ScrollbarGrabActive});
-  set(s.header, {ImGuiCol_Header, ImGuiCol_HeaderHovered, ImGuiCol_HeaderActive, ImGuiCol_TabHovered,
-                 ImGuiCol_TabActive, ImGuiCol_TabUnfocusedActive});
-  set(s.accent, {ImGuiCol_SliderGrab}, 0.4f);  // the number of a slider is written over it
+  set(s.header, {ImGuiCol_Header, ImGuiCol_HeaderActive, ImGuiCol_TabHovered, ImGuiCol_TabActive,
+                 ImGuiCol_TabUnfocusedActive});
+  set(s.frameHovered, {ImGuiCol_HeaderHovered});  // hovered and selected rows differ
+  set(s.accent, {ImGuiCol_SliderGrab}, 0.4f);     // the number of a slider is written over it
   set(s.accent, {ImGuiCol_CheckMark, ImGuiCol_PlotHistogram, ImGuiCol_SeparatorHovered,
                  ImGuiCol_ResizeGripHovered, ImGuiCol_NavHighlight});
   set(s.accentHovered, {ImGuiCol_SliderGrabActive}, 0.6f);
