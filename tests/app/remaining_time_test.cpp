@@ -55,8 +55,10 @@ TEST(RemainingTime, WorkThatWaitsForItsNextPieceIsNotSaidToTakeHours) {
   RemainingTime estimate;
   for (int i = 1; i < 320; ++i) {
     const double elapsed = 0.1 * i;
-    if (const auto left = estimate.update(elapsed, std::floor(elapsed / 4) / 8))
+    const auto left = estimate.update(elapsed, std::floor(elapsed / 4) / 8);
+    if (left) {
       EXPECT_LT(*left, 2 * (32 - elapsed) + 8) << elapsed;
+    }
   }
 }
 

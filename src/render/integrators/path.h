@@ -33,7 +33,7 @@ class PathTracer : public Integrator {
     int scattered = 0;    ///< number of times, by media
     Color weight{1};      ///< weight of the ray's radiance in the sample
     Real density = 0;     ///< density of its direction, among lobes; 0 where there was one only
-    Vec3 from;            ///< place for which that holds: panes may lie between it and the ray
+    Vec3 from{};          ///< place for which that holds: panes may lie between it and the ray
     bool within = false;  ///< it runs in a body, from where light comes out
     /// It was scattered, and on through nothing but glass that shadow rays pass: lights were asked.
     bool asked = false;
