@@ -88,15 +88,16 @@ struct Places {
 
 /// Asks the memory for lines of a child that the ray is about to visit, or will after others. Whether that is
 /// a leaf is a mask and not a branch, which would be guessed wrongly.
-template <int kBegin = 0, int kEnd = 4>
+template <unsigned kBegin = 0, unsigned kEnd = 4>
 [[gnu::always_inline]] inline void fetch(const Places& places, std::uint32_t child) {
   const auto nodes = reinterpret_cast<std::uintptr_t>(places.nodes),
              leaves = reinterpret_cast<std::uintptr_t>(places.leaves);
   const auto leaf =
       static_cast<std::uintptr_t>(static_cast<std::intptr_t>(static_cast<std::int32_t>(child) >> 31));
-  const auto* at = reinterpret_cast<const char*>((nodes ^ (leaf & (nodes ^ leaves))) +
-                                                 std::size_t{child & ~BvhNode::kLeaf} * kPlaceBytes);
-  for (int line = kBegin; line < kEnd; ++line) __builtin_prefetch(at + 64 * line);
+  const std::uintptr_t at =
+      (nodes ^ (leaf & (nodes ^ leaves))) + std::uintptr_t{child & ~BvhNode::kLeaf} * kPlaceBytes;
+  for (unsigned line = kBegin; line < kEnd; ++line)  // an address may be of no memory
+    __builtin_prefetch(reinterpret_cast<const char*>(at + 64 * line));
 }
 
 /// A child that waits for its turn, below where the ray enters its box: positive floats are ordered as their

@@ -21,7 +21,7 @@ constexpr double kLargePart = 0.25;  // fraction of the picture
 constexpr double kBeyond = 0.5;      // stops: white that is white on purpose is no brighter than this
 constexpr double kOneLevel = 1.0 / 255, kWhite = 254.0 / 255;
 // Levels of 255: as good as none, what is seen at a glance, and what denoising blurs.
-constexpr double kQuiet = 0.25, kNoisy = 4, kMuch = 10;
+constexpr double kQuiet = 0.25, kNoisy = 4, kRemoved = 10;
 
 /// The fraction of the picture that a file shows as white in all channels. Without a tone curve white paper
 /// is as white as that on purpose.
@@ -154,7 +154,7 @@ std::string noiseText(const Settings& settings, const Film& film) {
   std::nth_element(errors.begin(), middle, errors.end());
   // Specks are few too, but large: the mean has them.
   const double levels = 255 * std::max(std::min(*middle, 1.0), sum / count);
-  if (!(levels >= (settings.denoise ? kMuch : kNoisy))) return "";
+  if (!(levels >= (settings.denoise ? kRemoved : kNoisy))) return "";
   char text[160];
   std::snprintf(text, sizeof text,
                 "; noisy: %sits estimated error is %.0f levels of 255, which --spp %d halves%s",
