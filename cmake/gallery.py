@@ -26,7 +26,7 @@ def caption(picture, command, ray):
                           "--stats=json"], cwd=ROOT, stdout=subprocess.PIPE, check=True)
     said = json.loads(run.stdout)
     text = f"{said['width']} x {said['height']} pixels"
-    if said["error"] and said["error"]["mean"] >= 0.005:
+    if (said["error"]["mean"] or 0) >= 0.005:
         before = " before denoising" if said["settings"].get("denoise") == "on" else ""
         text += f", estimated error {said['error']['mean']:.2g} of 255 levels{before}"
     return f"\n*{text}*\n"

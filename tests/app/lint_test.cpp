@@ -200,15 +200,15 @@ TEST(Lint, TheSunMayShineThroughGlass) {
   EXPECT_EQ(checksOf(kCamera + lamp + kFloor + pane), Checks{"light-behind-glass"});
   // A ball of glass and nothing else: light that comes to its far side through it is no light behind glass.
   EXPECT_EQ(checksOf(kCamera + lamp +
-                     "sphere { material = { diffuse = (0.1, 0.1, 0.1); transmissive = (0.9, "
-                     "0.9, 0.9); index = 1.5; } }"),
+                     "sphere { material = { diffuse = (0.6, 0.6, 0.6); transmissive = (0.4, "
+                     "0.4, 0.4); index = 1.5; } }"),
             Checks{});
 }
 
 TEST(Lint, CausticsAreMissingOfLightsThatNoPathMeets) {
   const auto by = [](const std::string& light, const std::string& material, const std::string& settings) {
     return checksOf("settings { integrator = path; spp = 4; " + settings + " }" + kCamera + kFloor +
-                    "point_light { position = (3, 4, 3); color = (1, 1, 1); " + light + " }" +
+                    "point_light { position = (3, 4, 3); color = (9, 9, 9); " + light + " }" +
                     "translate(0, 0.5, 0, sphere { material = { diffuse = (0, 0, 0); " + material +
                     " } })\n");
   };
@@ -359,7 +359,7 @@ TEST(Lint, ASpotLightMayShineOnNothing) {
 TEST(Lint, APanelMayFaceAwayFromEveryObject) {
   const auto checks = [](const std::string& panel, const std::string& rest = "") {
     return checksOf(kCamera + "rectangle_light { position = (0, 5, 0); u = (1, 0, 0); " + panel +
-                    (panel.find("color") < panel.size() ? " }\n" : " color = (3, 3, 3); }\n") + kBall + rest);
+                    (panel.find("color") < panel.size() ? " }\n" : " color = (12, 12, 12); }\n") + kBall + rest);
   };
   const Checks away{"light-faces-away"};
   EXPECT_EQ(checks("v = (0, 0, 1);"), Checks{}) << "it emits downward";

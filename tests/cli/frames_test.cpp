@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "image/codecs/codec.h"
 #include "program.h"
@@ -191,6 +193,7 @@ TEST_F(Frames, CtrlCTwiceSaysWhichFramesAreThere) {
   ASSERT_TRUE(program.says("\"done\":"));
   program.kill(SIGINT);
   ASSERT_TRUE(program.says("Ctrl-C again"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // sooner it would count as the first one
   program.kill(SIGINT);
   EXPECT_EQ(program.wait(), 130);
   EXPECT_TRUE(contains(program.err(),

@@ -33,17 +33,27 @@ bool keepsText(std::string_view format) {
                      [&](const SceneFormat& row) { return row.name == format && row.rewrite != nullptr; });
 }
 
-/// The choices that a saved scene makes: not those of this machine, nor those that its quality makes.
+/// The choices that a saved scene makes: not those of this machine, nor those that follow from the others, as
+/// from its quality.
 std::vector<Choice> ofTheScene(const Scene& scene, const Settings& settings) {
-  std::vector<Choice> quality;
+  const auto differ = [&](const std::vector<Choice>& choices) {
+    std::vector<Choice> others;
+    const Settings given = settingsFor(scene, {choices});
+    for (const Option& option : options())
+      if (const std::string value = option.get(settings);
+          option.repeats != Repeats::nothing && value != option.get(given))
+        others.push_back({std::string(option.name), value, {}});
+    return others;
+  };
+  std::vector<Choice> choices;
   if (settings.quality != Quality::none)
-    quality.push_back({"quality", findOption("quality").get(settings), {}});
-  const Settings implied = settingsFor(scene, {quality});
-  std::vector<Choice> choices = quality;
-  for (const Option& option : options()) {
-    if (option.repeats == Repeats::nothing || option.name == "quality") continue;
-    if (const std::string value = option.get(settings); value != option.get(implied))
-      choices.push_back({std::string(option.name), value, {}});
+    choices.push_back({"quality", findOption("quality").get(settings), {}});
+  for (Choice& choice : differ(choices)) choices.push_back(std::move(choice));
+  if (settings.quality == Quality::none) return choices;
+  for (std::size_t i = choices.size(); i-- > 1;) {
+    std::vector<Choice> fewer = choices;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+    if (differ(fewer).empty()) choices = std::move(fewer);
   }
   return choices;
 }

@@ -122,9 +122,10 @@ std::string statisticsJson(const Run& run) {
     if (s.moves[i] > 0)
       json["chains"][kMoveLooks[i].name] = {{"moves", s.moves[i]}, {"kept", s.movesKept[i]}};
   if (s.hasMoves()) json["chains"]["brightnessError"] = run.result.brightnessError;
-  json["error"] = Json();
-  if (const auto error = estimatedError(session.settings(), session.film()))
-    json["error"] = {{"mean", error->mean}, {"median", error->median}, {"ninth", error->ninth}};
+  const auto error = estimatedError(session.settings(), session.film());
+  json["error"] = {{"mean", error ? Json(error->mean) : Json()},
+                   {"median", error ? Json(error->median) : Json()},
+                   {"ninth", error ? Json(error->ninth) : Json()}};
   json["badSamples"] = {{"count", s.badSamples}, {"first", Json::list()}};
   for (const BadSample& bad : run.result.badSamples)
     json["badSamples"]["first"].add({{"x", bad.x}, {"y", bad.y}, {"sample", bad.sample}});

@@ -87,8 +87,10 @@ void breakUpChanged(const Reading& now, Wanted& wanted, Messages& messages) {
     const std::size_t offset = now.syntax->offsetOf(from.objects[first].place);
     const bool single = end - first == 1 && outline.find(offset) != nullptr;
     const std::optional<Item> node = now.syntax->itemAt(offset);
-    // Particles make materials of those of the text, copies in rows have them as they are.
-    const Scene& said = node && node->is(Kind::call) && node->key() == Rows::kKeyword ? becoming : from;
+    // Particles make materials of those of the text; copies in rows, loops and definitions have them as they
+    // are.
+    const bool isCopy = node && node->is(Kind::call) && node->key() == Rows::kKeyword;
+    const Scene& said = isCopy || now.syntax->usesLanguage() ? becoming : from;
     for (std::size_t i = first; i < end && !single; ++i) {
       const bool gone = kept[i] == Wanted::kNew;
       left = left || !gone;
