@@ -92,6 +92,8 @@ class Session {
   }
 
   /// The picture rendered so far. May be asked from other threads while renderPicture() runs.
+  /// There is one from build() on.
+  bool hasFilm() const { return film_ != nullptr; }
   const Film& film() const { return *film_; }
   Film& film() { return *film_; }  ///< to fill with what was rendered before
   Picture picture() const { return pictureOfFilm(*film_, settings_); }

@@ -90,13 +90,13 @@ RayStory::RayStory(const TracedPixel& pixel, const Camera& view) : pixel_(pixel)
 }
 
 Drawing RayStory::after(int rays) const {
+  rays = std::clamp(rays, 0, this->rays());
   Drawing drawing;
   drawing.width = static_cast<int>(wide_ + kTree + 3 * kMargin);
   drawing.height = static_cast<int>(kHigh + 2 * kMargin + 5 * kRowHigh);
-  drawing.things.push_back(wordsAt({kMargin, kMargin}, "pixel " + std::to_string(pixel_.x) + "," +
-                                                           std::to_string(pixel_.y) + ", " +
-                                                           std::to_string(std::min(rays, this->rays())) +
-                                                           " of " + std::to_string(this->rays()) + " rays"));
+  drawing.things.push_back(wordsAt(
+      {kMargin, kMargin}, "pixel " + std::to_string(pixel_.x) + "," + std::to_string(pixel_.y) + ", " +
+                              std::to_string(rays) + " of " + std::to_string(this->rays()) + " rays"));
   addSpace(drawing, rays);
   addTree(drawing, rays);
   addSum(drawing, rays);

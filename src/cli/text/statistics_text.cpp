@@ -36,6 +36,11 @@ std::optional<double> raysPerSecond(const Run& run) {
   return {};
 }
 
+std::optional<PictureError> errorOf(const Session& session) {
+  if (!session.hasFilm()) return {};
+  return estimatedError(session.settings(), session.film());
+}
+
 std::optional<double> ratio(std::uint64_t a, std::uint64_t b) {
   if (b == 0) return {};
   return static_cast<double>(a) / static_cast<double>(b);
@@ -79,7 +84,7 @@ std::string statisticsTable(const Run& run) {
                   orDash("%.3f", ratio(s.movesKept[i], s.moves[i])));
   if (s.hasMoves())
     text += row("brightness", "", "", formatted("+-%.2g %%", 100 * run.result.brightnessError));
-  if (const auto error = estimatedError(run.session.settings(), run.session.film())) {
+  if (const auto error = errorOf(run.session)) {
     text += row("levels of 255", "mean", "median", "9 of 10");
     text += row("error", formatted("%.3g", error->mean), formatted("%.3g", error->median),
                 formatted("%.3g", error->ninth));
@@ -122,7 +127,7 @@ std::string statisticsJson(const Run& run) {
     if (s.moves[i] > 0)
       json["chains"][kMoveLooks[i].name] = {{"moves", s.moves[i]}, {"kept", s.movesKept[i]}};
   if (s.hasMoves()) json["chains"]["brightnessError"] = run.result.brightnessError;
-  const auto error = estimatedError(session.settings(), session.film());
+  const auto error = errorOf(session);
   json["error"] = {{"mean", error ? Json(error->mean) : Json()},
                    {"median", error ? Json(error->median) : Json()},
                    {"ninth", error ? Json(error->ninth) : Json()}};

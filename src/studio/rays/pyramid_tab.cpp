@@ -94,7 +94,7 @@ void drawCells(Studio& studio) {
   const Picture& first = pyramid.pictures.front().picture;
   const float aspect = static_cast<float>(first.width) / static_cast<float>(std::max(1, first.height));
   const int most = pyramid.plan.places;
-  const float high = std::max(24.0f, std::floor(all.y / static_cast<float>(most - 1)) - gap);
+  const float high = std::max(12.0f, std::floor(all.y / static_cast<float>(most - 1)) - gap);
   const float wide = std::floor(all.x / static_cast<float>(most)) - gap;
   const ImVec2 size{std::min(wide, high * aspect), std::min(wide, high * aspect) / aspect};
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {gap, gap});
