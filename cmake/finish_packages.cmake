@@ -51,9 +51,9 @@ foreach(component ${CPACK_COMPONENTS_ALL})
   if(EXISTS ${root}/share/zsh/site-functions)
     file(RENAME ${root}/share/zsh/site-functions ${root}/share/zsh/vendor-completions)
   endif()
-  # Examples lie with the other files of their package; the pages have copies of their own.
+  # Examples lie with the other files of their package.
   file(GLOB examples ${root}/share/doc/*/examples)
-  if(examples AND NOT "${component}" STREQUAL "doc" AND NOT "${examples}" STREQUAL "${doc}/examples")
+  if(examples AND NOT "${examples}" STREQUAL "${doc}/examples")
     file(RENAME ${examples} ${doc}/examples)
     cmake_path(GET examples PARENT_PATH emptied)
     file(REMOVE_RECURSE ${emptied})

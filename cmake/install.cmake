@@ -81,7 +81,7 @@ endif()
 
 install(DIRECTORY scenes DESTINATION ${doc} COMPONENT program)
 install(FILES README.md ARCHITECTURE.md CHANGELOG.md CITATION.cff CONTRIBUTING.md LICENSE SECURITY.md DESTINATION ${doc} COMPONENT doc)  # their links lead to one another
-install(DIRECTORY docs editors examples include DESTINATION ${doc} COMPONENT doc)  # pages lead to them
+install(DIRECTORY docs editors include DESTINATION ${doc} COMPONENT doc)  # pages lead to them, and to examples (library.cmake)
 install(FILES cmake/words.txt DESTINATION ${doc}/cmake COMPONENT doc)
 
 include(${CMAKE_CURRENT_LIST_DIR}/packages.cmake)

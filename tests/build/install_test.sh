@@ -44,7 +44,7 @@ fi
 # All goes again by the list that cmake leaves.
 while IFS= read -r file || [[ -n "$file" ]]; do
   [[ "$file" == "$folder"/* ]] || fail "the manifest names $file, which is not ours"
-  rm -f -- "$file"  # one that two components have stands there twice
+  rm -- "$file"
 done <"$build/install_manifest.txt"
 left="$(find usr ! -type d)"
 [[ -z "$left" ]] || fail "the manifest does not know $left"
