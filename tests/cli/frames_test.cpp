@@ -4,8 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 #include "image/codecs/codec.h"
 #include "program.h"
@@ -193,8 +191,7 @@ TEST_F(Frames, CtrlCTwiceSaysWhichFramesAreThere) {
   ASSERT_TRUE(program.says("\"done\":"));
   program.kill(SIGINT);
   ASSERT_TRUE(program.says("Ctrl-C again"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));  // sooner it would count as the first one
-  program.kill(SIGINT);
+  program.killAgain(SIGINT);
   EXPECT_EQ(program.wait(), 130);
   EXPECT_TRUE(contains(program.err(),
                        "stopped at once by the user: wrote f.0.png (1 of 10 frames); stopped at "

@@ -53,6 +53,11 @@ class Program {
   Program& operator=(const Program&) = delete;
 
   void kill(int signal) const { ::kill(child_, signal); }
+  /// Once more; sooner it would count as the signal before.
+  void killAgain(int signal) const {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    kill(signal);
+  }
 
   /// The exit code; -signal if one ended it.
   int wait() {
