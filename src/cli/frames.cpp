@@ -72,7 +72,7 @@ Choice momentOf(const Arguments& arguments, int frame) {
 
 std::vector<Choice> exposureOfAll(const Arguments& arguments) {
   Session first;
-  open(first, arguments, arguments.frames.front());
+  open(first, arguments, 0);
   if (!first.settings().autoExposure) return {};
   first.build();
   return {{"auto-exposure", "off", {}}, {"exposure", toText(first.settings().exposure), {}}};

@@ -15,7 +15,8 @@ std::string frameName(const std::string& pattern, int frame);
 /// The moment that the frame shows, as a choice. Throws Error(Fault::usage) beside a choice of --time.
 Choice momentOf(const Arguments& arguments, int frame);
 
-/// One exposure for all frames, where it is automatic: that of the first one. Throws Error.
+/// One exposure for all frames, where it is automatic: that of frame 0, so that a frame is the same picture
+/// in every run. Throws Error.
 std::vector<Choice> exposureOfAll(const Arguments& arguments);
 
 /// Renders the frames that are not there yet, each whole or not at all. `pattern` holds #### for the number.

@@ -167,11 +167,15 @@ void reportLosses(const Session& session, const RenderResult& result, const Cons
     const auto cast =  // by this run, and not by those before it that left a checkpoint
         static_cast<double>(result.statistics.rays[static_cast<std::size_t>(RayKind::camera)]);
     const double kept = light * cast / std::max(samples, 1.0);
-    char text[120];
+    constexpr double kMuch = 0.05;  // then it is no longer a few specks, but light that paths find too rarely
+    const double share = removed / (removed + kept);
+    const bool isFoundOtherwise = share > kMuch && hasTrait(session.settings(), Trait::bounces) &&
+                                  !hasTrait(session.settings(), Trait::photons);
+    char text[200];
     std::snprintf(
         text, sizeof text,
-        "note: --firefly-limit took away %.2g %% of the light, all of it in bright specks; 0 keeps them",
-        100 * removed / (removed + kept));
+        "note: --firefly-limit took away %.2g %% of the light, in its brightest samples; %s0 keeps it",
+        100 * share, isFoundOtherwise ? "--integrator photon may find it without noise; " : "");
     console.line(LogLevel::info, text);
   }
   if (const std::string doubt = brightnessDoubt(session.settings(), result.brightnessError); !doubt.empty())

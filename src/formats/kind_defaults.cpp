@@ -140,14 +140,17 @@ void smoothMeshes(Scene& scene) {
     for (Object& object : group.objects) smoothen(object);
 }
 
-/// A light that fades: its colour is what falls on a white surface at the distance of what is looked at.
-void letLightsReach(Scene& scene, const KindGiven& given, const Box3& seen) {
+/// A light that fades: its colour is what falls on a white surface at the distance that what is looked at has
+/// from `origins`, these lights as the scene begins.
+void letLightsReach(Scene& scene, const KindGiven& given, const Vec3& target,
+                    std::span<const LightSource> origins) {
   if (given.fading.empty()) return;
-  const Vec3 target = given.lookAt ? *given.lookAt : seen.empty() ? Vec3{} : seen.center();
   for (const std::size_t number : given.fading) {
     Light& light = scene.lights[number].light;
     if (light.type().starts != LightOrigin::ball) continue;
-    const Vec3 way = *light.position() - target;
+    const Light& origin =
+        number < origins.size() && origins[number].light.position() ? origins[number].light : light;
+    const Vec3 way = *origin.position() - target;
     const Real square = dot(way, way);
     Color& color = *editableValue<Color>(light, "color");
     if (square > 0 && std::isfinite(square)) color = color * square;
@@ -252,16 +255,25 @@ std::string_view kindDefaultOf(std::string_view option) {
   return value == findOption(option).get(Settings{}) ? std::string_view() : value;
 }
 
-void addKindDefaults(Scene& scene, const KindGiven& given, const SourcePlace& place) {
-  const Box3 seen = boundsOfInterest(scene);
+bool kindDefaultsFollow(const Scene& scene, const KindGiven& given) {
+  return !(given.cameraPosition && given.cameraDirection) || !given.fading.empty() || !givesLight(scene);
+}
+
+void addKindDefaults(Scene& scene, const KindGiven& given, const SourcePlace& place, const KindStart* start) {
+  const Box3 seen = start ? start->seen : boundsOfInterest(scene);
   addCamera(scene, given, seen);
   fitCamera(scene);
   smoothMeshes(scene);
-  letLightsReach(scene, given, seen);
+  const std::optional<Vec3>& lookAt = start ? start->given.lookAt : given.lookAt;
+  const Vec3 target = lookAt ? *lookAt : seen.empty() ? Vec3{} : seen.center();
+  letLightsReach(scene, given, target, start ? start->scene.lights : scene.lights);
   if (!givesLight(scene)) {
     constexpr Real kSunSize = 3;
+    Scene view;
+    view.camera = start ? start->scene.camera : scene.camera;
+    if (start) addCamera(view, start->given, seen);
     scene.background = sky();
-    scene.lights = {sun(scene.camera, kSunSize)};
+    scene.lights = {sun(view.camera, kSunSize)};
     scene.kindDefaults.emplace_back("a sky and a sun");
   }
   addKindChoices(scene, place);

@@ -27,8 +27,20 @@ struct KindGiven {
   std::vector<std::size_t> fading{};
 };
 
-/// Completes the scene. `place` is where the file says its kind; the choices of options carry it.
-void addKindDefaults(Scene& scene, const KindGiven& given, const SourcePlace& place);
+/// From this come the defaults of a scene that changes with time, so that they do not change with it.
+struct KindStart {
+  Scene scene;  ///< as it begins, at time 0, without defaults
+  KindGiven given;
+  Box3 seen;  ///< the bounds of what a person looks at, over all of its time
+};
+
+/// Completes the scene. `place` is where the file says its kind; the choices of options carry it. `start` is
+/// null for a scene that does not change.
+void addKindDefaults(Scene& scene, const KindGiven& given, const SourcePlace& place,
+                     const KindStart* start = nullptr);
+
+/// Do the defaults depend on where objects, lights or the camera are?
+bool kindDefaultsFollow(const Scene& scene, const KindGiven& given);
 
 /// The value of the option in such a file, of which the quality gives a part; "" if that is the option's
 /// default.

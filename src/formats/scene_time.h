@@ -1,6 +1,8 @@
 // The moment at which a scene is read.
 #pragma once
 
+#include <algorithm>
+
 #include "math/vec.h"
 
 namespace trace {
@@ -19,8 +21,13 @@ class SceneTime {
   /// now() was called.
   bool changesScene() const { return asked_; }
 
+  /// A value changes by keys, of which this is the moment of the last.
+  void hasKey(Real moment) { last_ = std::max(last_, moment); }
+  /// The moment of the last key, in seconds; 0 if none comes after the start.
+  Real last() const { return last_; }
+
  private:
-  Real seconds_;
+  Real seconds_, last_ = 0;
   bool asked_ = false;
 };
 

@@ -59,11 +59,9 @@ void showError(Studio& studio) {
   });
   if (error == log.rend()) return;
   const SourcePlace& place = error->place;
-  const std::string file = std::filesystem::path(place.file).filename().generic_string();
-  studio.banner.text =
-      (file.empty() ? ""
-                    : file + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) + ": ") +
-      error->text;
+  std::string where = std::filesystem::path(place.file).filename().generic_string();
+  if (place.line > 0) where += ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
+  studio.banner.text = (where.empty() ? "" : where + ": ") + error->text;
   const Document& document = studio.workspace.document;
   studio.banner.scene = document.isOpen() ? document.sharedScene() : nullptr;
 }

@@ -132,6 +132,10 @@ TEST_F(WorkspaceTest, ANewSceneIsWrittenAndOpenedButOverNoFile) {
   ASSERT_TRUE(settled(workspace));
   EXPECT_EQ(workspace.document.scene().objects.size(), 2u);
   EXPECT_EQ(workspace.document.settings().integrator, IntegratorKind::whitted);
+  workspace.choose("spp", "16");
+  EXPECT_EQ(workspace.document.settings().spp, 16);
+  EXPECT_FALSE(workspace.document.settings().denoise) << "the mean of 16 samples, no more";
+  EXPECT_EQ(workspace.document.settings().noiseTarget, 0);
 }
 
 TEST_F(WorkspaceTest, WithoutASceneNothingIsWritten) {

@@ -50,6 +50,17 @@ TEST_F(Frames, ShowTheSceneAtTheirTimes) {
   EXPECT_NEAR(brightness("moment.bmp"), 0.75, 1.0 / 255);
 }
 
+TEST_F(Frames, HaveOneExposureInWhateverRun) {
+  write("glow.ray", "Trace 1\nsphere { material = { emissive = key((0, (1, 1, 1)), (2, (9, 9, 9))) } }\n");
+  const std::vector<std::string> quick{"--quality", "draft", "--spp",  "1",
+                                       "--denoise", "off",   "--tone", "clamp"};
+  EXPECT_EQ(render(quick, "0-2").code, 0);
+  const Picture in = readPicture(path("glow.0002.png"));
+  std::filesystem::remove(path("glow.0002.png"));
+  EXPECT_EQ(render(quick, "2").code, 0);
+  EXPECT_EQ(readPicture(path("glow.0002.png")), in);
+}
+
 TEST_F(Frames, ASceneMayChooseItsMoment) {
   write("later.ray", std::string(kGlow) + "settings { time = 1; }");
   run({"later.ray", "-w", "8", "-o", "a.bmp"});

@@ -63,6 +63,26 @@ TEST_F(PictureFilesTest, OfScenesFromTheStandardInput) {
   EXPECT_NE(text("said").find("-:2:"), std::string::npos) << "a message has the place: " << text("said");
 }
 
+TEST_F(PictureFilesTest, CommandsReadTheStandardInput) {
+  writeFile(folder_ / "a.ray", "SBT-raytracer 1.0\nsphere {material={diffuse=(1,0,0);}}\n");
+  ASSERT_EQ(shell("ray " + scene_ + " -w 16 -o a.png 2> said"), 0) << text("said");
+  EXPECT_EQ(shell("ray diff a.png - < a.png > out 2> said"), 0) << text("said");
+  EXPECT_EQ(text("out"), "a.png and - are identical (16x11)\n");
+  EXPECT_EQ(shell("cat a.png | ray diff - a.png > out 2> said"), 0) << text("said");
+  EXPECT_EQ(shell("ray diff - - < a.png > out 2> said"), 2);
+  EXPECT_NE(text("said").find("expected at least one picture in a file, found - twice"), std::string::npos);
+  for (const char* command : {"format", "expand"}) {
+    ASSERT_EQ(shell(std::string("ray ") + command + " - < a.ray > b.ray 2> said"), 0) << text("said");
+    ASSERT_EQ(shell(std::string("ray ") + command + " a.ray > c.ray 2> said"), 0);
+    const std::string a = text("b.ray"), b = text("c.ray");
+    EXPECT_EQ(a.substr(a.find("sphere")), b.substr(b.find("sphere"))) << command;
+  }
+  EXPECT_EQ(shell("ray format - --in-place < a.ray 2> said"), 2);
+  EXPECT_NE(text("said").find("found the standard input"), std::string::npos) << text("said");
+  ASSERT_EQ(shell("ray convert - b.obj < a.ray 2> said"), 0) << text("said");
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "b.obj"));
+}
+
 /// Skips, by name and loudly, where a program is not installed.
 #define TRACE_NEEDS_PROGRAM(name, package)           \
   if (shell("command -v " name " > /dev/null") != 0) \

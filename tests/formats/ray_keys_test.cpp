@@ -125,6 +125,35 @@ TEST(RayKeys, WrongOnesAreToldWithTheirPlace) {
             std::string::npos);
 }
 
+TEST(RayKeys, WhatTraceChoosesStaysWhileTheSceneMoves) {
+  const auto whole = [](const std::string& statements, Real time) {
+    Messages messages;
+    return readScene("test.ray", "Trace 1\n" + statements, messages, time);
+  };
+  const std::string ball = "plane { }\ntranslate(key((0, -3), (4, 3)), 1, 0) { sphere { } }\n";
+  const Scene begin = whole(ball, 0);
+  for (const Real time : {1.0, 4.0, 7.0}) {
+    const Scene later = whole(ball, time);
+    EXPECT_EQ(later.camera, begin.camera) << time;
+    EXPECT_EQ(later.lights, begin.lights) << time;
+    EXPECT_NE(later.objects, begin.objects) << time;
+  }
+  const Scene still = whole("plane { }\ntranslate(-3, 1, 0) { sphere { } }\n", 0);
+  EXPECT_GT(length(begin.camera.position), 1.2 * length(still.camera.position)) << "it shows the whole way";
+
+  // A sun behind the shoulder of a camera that turns, and a lamp that comes nearer.
+  const std::string turning =
+      "sphere { }\ncamera { position = key((0, (0, 0, 9)), (2, (9, 0, 0))); look_at = (0, 0, 0) }\n";
+  EXPECT_NE(whole(turning, 2).camera, whole(turning, 0).camera);
+  EXPECT_EQ(whole(turning, 2).lights, whole(turning, 0).lights);
+  const std::string nearing = "sphere { }\npoint_light { position = (0, 0, key((0, 8), (2, 4))) }\n";
+  const auto colorAt = [&](Real time) {
+    return whole(nearing, time).lights.at(0).light.as<PointLight>()->color;
+  };
+  EXPECT_EQ(colorAt(0), Color(64));
+  EXPECT_EQ(colorAt(2), colorAt(0)) << "so it is four times as bright on the ball";
+}
+
 TEST(RayKeys, HugeValuesOverflowIntoAnError) {
   Messages messages;
   const std::string text = "SBT-raytracer 1.0 camera { fov = key((0, -1.7e308), (1, 1.7e308)); }";

@@ -92,6 +92,30 @@ TEST(Denoise, KeepsEdgesThatTheGuidesDoNotKnow) {
   EXPECT_LT(error(after, 0, kSize / 2 - 4), error(before, 0, kSize / 2 - 4) / 2);
 }
 
+TEST(Denoise, LeavesNoNoiseAroundABall) {
+  constexpr double kRadius = 12, kBright = 0.9, kDark = 0.1;
+  Noisy picture = noisy(0.06);
+  const auto outside = [](int x, int y) { return std::hypot(x - kSize / 2, y - kSize / 2) - kRadius; };
+  for (int y = 0; y < kSize; ++y)
+    for (int x = 0; x < kSize; ++x) {
+      const Color shift = Color(outside(x, y) < 0 ? kBright : kDark) + truth(x, y) * -1;
+      for (Picture* half : {&picture.halves.first, &picture.halves.second}) half->at(x, y) += shift;
+      picture.guides.albedo.at(x, y) = Color(0.5);
+      picture.guides.normal.at(x, y) = outside(x, y) < 0 ? Color(0.6, 0, 0.8) : Color(0, 0, 1);
+    }
+  const Picture after = cleaned(picture, 1), before = meanOf(picture.halves);
+  const auto error = [&](const Picture& of, double least, double most) {
+    double sum = 0;
+    int count = 0;
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x)
+        if (outside(x, y) > least && outside(x, y) < most) sum += std::pow(of.at(x, y).g - kDark, 2), ++count;
+    return sum / count;
+  };
+  EXPECT_LT(error(after, 0.1, 3), error(before, 0.1, 3) / 4) << "beside its edge";
+  EXPECT_LT(error(after, 5, 12), error(before, 5, 12) / 8) << "far from it";
+}
+
 TEST(Denoise, TheSameBitsForAnyNumberOfThreads) {
   const Noisy picture = noisy(0.1);
   const Picture one = cleaned(picture, 1);

@@ -87,6 +87,13 @@ TEST(DepthOfField, FocusOnAnObjectOrAPointIsFocusAtItsDistance) {
     EXPECT_NE(std::string(error.what()).find("no object of the scene is called \"lump\""), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("lamp"), std::string::npos) << "did you mean";
   }
+  settings.focusOn = {.object = "sphere"};
+  try {
+    build(scene, settings);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("give objects names"), std::string::npos) << error.what();
+  }
 }
 
 TEST(DepthOfField, FocusOnLooksIntoGroups) {

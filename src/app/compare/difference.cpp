@@ -37,7 +37,7 @@ constexpr std::array kMetrics{
 
 LoadedPicture loadPicture(const std::string& path) {
   const Work work("reading a picture");
-  const std::string bytes = readFile(pictureName(path).file);
+  const std::string bytes = readInput(pictureName(path).file);
   return {decodePicture(bytes, path), !pictureFormatOf(bytes, path).keepsBright, pictureRemark(bytes, path)};
 }
 

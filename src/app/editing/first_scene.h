@@ -43,7 +43,11 @@ inline constexpr std::string_view kSmallScene = R"(Trace 1
 
 // A small scene for a course: a floor, a ball and a light, rendered by Whitted's tracer.
 // The picture shows the numbers as they are: no exposure and no tone curve are added.
-settings { integrator = whitted; spp = 1; depth = 5; tone = clamp; auto-exposure = off }
+settings {
+  integrator = whitted; spp = 1; depth = 5
+  tone = clamp; auto-exposure = off
+  denoise = off; noise-target = 0  // so that more samples are plain means
+}
 background { gradient = ((0.3, 0.3, 0.3), (0.55, 0.65, 0.8), (0.3, 0.45, 0.7)) }
 
 camera { position = (0, 2.2, 7); look_at = (0, 0.8, 0); fov = 34; aspectratio = 4 / 3 }

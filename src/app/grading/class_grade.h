@@ -9,6 +9,7 @@
 #include "app/compare/grade.h"
 #include "app/grading/rubric.h"
 #include "app/grading/student_program.h"
+#include "app/grading/submission_files.h"
 
 namespace trace {
 
@@ -27,15 +28,6 @@ struct ClassScene {
   std::string thumbnail;  ///< a JPEG file; empty where nothing keeps pictures
 };
 
-/// A file that has the name of a reference, and was not compared.
-struct PassedOver {
-  std::string file;
-  std::string compared;  ///< the one in its place; "" where its name is that of several references
-};
-
-/// "b/glass.png: not compared; a/glass.png was".
-std::string passedOverText(const PassedOver& file);
-
 struct ClassStudent {
   std::string name;
   std::vector<GradedPair> pairs;  ///< one for each scene, in their order; its pictures are small JPEG files
@@ -53,13 +45,6 @@ struct ClassGrades {
   std::size_t computed = 0;            ///< pairs whose result was not kept from an earlier run
   std::string stopped;                 ///< why some pairs were not reached; "" if all were
 };
-
-/// For each reference the student's file, "" if there is none. A file is of the reference with whose path its
-/// own agrees longest from the end on; folders, letter case and suffix may differ. Of several files the one
-/// in the fewest folders counts, then the one with the very name, then the same letter case, the same suffix,
-/// and the first by name.
-std::vector<std::string> assignSubmissions(const std::vector<std::string>& references,
-                                           const std::vector<std::string>& files);
 
 /// Throws Error when a folder cannot be read, there is no student or no reference, or two references have one
 /// name; what goes wrong with one picture is its verdict.

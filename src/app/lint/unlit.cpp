@@ -44,7 +44,8 @@ bool spotsOnNothing(const LintScene& s, Findings& findings) {
 }
 
 void unlit(const LintScene& s, Findings& findings) {
-  constexpr int kFew = 5;
+  constexpr int kFew = 5, kFewOfPaths = 20;  // bounced light reaches only some of a few places
+  const int few = hasTrait(s.settings, Trait::bounces) ? kFewOfPaths : kFew;
   if (s.scene.lights.empty()) return;  // that is told otherwise
   const auto all = static_cast<std::uint32_t>(s.scene.objects.size());
   std::uint32_t gathers = 0;
@@ -74,7 +75,7 @@ void unlit(const LintScene& s, Findings& findings) {
       if (s.world.opaque(around)) cases.insert(around);
   for (std::uint32_t object = 0; object < s.scene.objects.size(); ++object) {
     const Survey::Seen& seen = s.survey.objects[object];
-    if (seen.places < kFew || seen.lit > 0 || seen.couldBeLit < seen.places) continue;
+    if (seen.places < few || seen.lit > 0 || seen.couldBeLit < seen.places) continue;
     const auto most = mostOf(seen.blockedBy);
     const int blocked = most == seen.blockedBy.end() ? 0 : most->second;
     const int others = std::max(seen.facesAway, blocked);

@@ -120,7 +120,7 @@ void Session::open(const std::string& file, std::span<const Choice> choices, boo
   if (budgetOfThread.budget) budgetOfThread.budget->letFinish(false);
   strict_ = strict;
   messages_ = {};
-  const std::string bytes = file == kStandardInput ? readStandardInput() : readFile(file);
+  const std::string bytes = readInput(file);
   SceneAtMoment read = readSceneAtItsMoment(file, bytes, choices, messages_);
   scene_ = std::move(read.scene);
   completeBareMesh(scene_);

@@ -43,9 +43,6 @@ SceneAtMoment readSceneAtItsMoment(const std::string& file, std::string_view byt
 /// Reads the scene once more, as it is at a time.
 using SceneAt = std::function<Scene(Real time)>;
 
-/// The name of a scene that is read from the standard input.
-inline constexpr std::string_view kStandardInput = "-";
-
 class Session {
  public:
   /// Reads the scene and settles the settings: defaults < file < choices.

@@ -15,6 +15,14 @@ std::string readFile(const std::string& path);
 /// The bytes that come in on the standard input until its end. Throws as readFile().
 std::string readStandardInput();
 
+/// The name of the standard input where a command reads a scene or a picture.
+inline constexpr std::string_view kStandardInput = "-";
+
+/// The bytes of the file, or of the standard input for its name.
+inline std::string readInput(const std::string& path) {
+  return path == kStandardInput ? readStandardInput() : readFile(path);
+}
+
 /// At most so many bytes from its start. Throws Error(Fault::io) also for a pipe.
 std::string readStart(const std::string& path, std::size_t most);
 

@@ -129,7 +129,7 @@ void change(Scene& scene, const Conversion& conversion, const Console& console) 
 Scene sceneToConvert(const std::string& in, const Arguments& arguments, Messages& messages) {
   const Conversion& conversion = arguments.conversion;
   const Work work("reading the scene");
-  const std::string bytes = readFile(in);
+  const std::string bytes = readInput(in);
   constexpr int kAround = 64;  // by default
   if (conversion.revolve)
     return revolvedScene(in, bytes, conversion.steps > 0 ? conversion.steps : kAround, conversion.picture,

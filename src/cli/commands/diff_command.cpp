@@ -269,6 +269,8 @@ Finding findDifference(const Arguments& arguments, const Console& console) {
   if (arguments.files.size() != 2)
     throw Error(Fault::usage,
                 "ray diff: expected two pictures, found " + std::to_string(arguments.files.size()));
+  if (arguments.files[0] == kStandardInput && arguments.files[1] == kStandardInput)
+    throw Error(Fault::usage, "ray diff: expected at least one picture in a file, found - twice");
   const bool json = chosenFormat(arguments, "diff", kTextOrJson) == "json";
   if (!arguments.output.empty()) pictureFormatFor(arguments.output);
   checkOptions(arguments);

@@ -67,7 +67,10 @@ int formatCommand(const Arguments& arguments, const Console& console) {
   const std::string& file = onlyFile(arguments, "format");
   if (arguments.inPlace && !arguments.output.empty())
     throw Error(Fault::usage, "ray format: expected --in-place or -o, found both");
-  const std::string bytes = readFile(file);
+  if (arguments.inPlace && file == kStandardInput)
+    throw Error(Fault::usage, "ray format: expected a file with --in-place, found the standard input",
+                "ray format - prints the tidied scene");
+  const std::string bytes = readInput(file);
   const TextFront front(file, bytes);
   checkIsRay(file, front, "format");
   if (arguments.inPlace && (front.wasEncoded() || front.wasCut()))
@@ -91,7 +94,7 @@ int expandCommand(const Arguments& arguments, const Console& console) {
   const Work work("expanding the scene");
   const std::string& file = onlyFile(arguments, "expand");
   if (!arguments.output.empty()) checkDistinct(file, arguments.output);
-  const std::string bytes = readFile(file);
+  const std::string bytes = readInput(file);
   const TextFront front(file, bytes);
   checkIsRay(file, front, "expand");
   const Settings given = resolve({arguments.choices});

@@ -2,21 +2,31 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "base/budget.h"
-#include "math/elementary.h"
 
 namespace trace {
 namespace {
 
 constexpr int kReach = 8;                            // pixels to each side that are averaged
 constexpr int kPatch = 3;                            // to each side of what is compared
+constexpr int kSmallPatch = 1;                       // likewise beside an edge, which a large patch contains
 constexpr int kRows = 16;                            // rows of a chunk
 constexpr int kNoiseReach = 4;                       // over which the noise of halves is averaged
 constexpr float kColours = 0.45f, kSurfaces = 0.6f;  // how far apart is alike still; both papers'
 constexpr float kLeastSlope = 1e-3f;                 // least slope of features, squared
 constexpr double kDarkest = 0.1;                     // surface by whose colour light is divided
 constexpr double kEnough = 10;                       // pixels of like surfaces whose mean is calm
+
+constexpr float kTooFar = 8;  // how far apart is not alike at all
+
+/// The weight of a pixel that is so far apart: nearly exp(-apart), and nothing from kTooFar on.
+float weightOf(float apart) {
+  float weight = 1 - apart / kTooFar;
+  for (int i = 0; i < 3; ++i) weight *= weight;  // to the eighth
+  return weight;
+}
 
 /// A picture of floats: three channels, one after the other.
 struct Plane {
@@ -30,6 +40,24 @@ struct Plane {
   }
 };
 using Channels = std::array<Plane, 3>;
+
+/// A plane that repeats its border, for offsets that lead beyond it.
+struct Bordered {
+  static constexpr int kBorder = kReach + kPatch;
+  int stride;
+  std::vector<float> values;
+  explicit Bordered(const Plane& plane)
+      : stride(plane.width + 2 * kBorder),
+        values(static_cast<std::size_t>(stride) * static_cast<std::size_t>(plane.height + 2 * kBorder)) {
+    for (int y = -kBorder; y < plane.height + kBorder; ++y) {
+      const float* from = plane.row(std::clamp(y, 0, plane.height - 1));
+      float* to = values.data() + start(y);
+      for (int x = -kBorder; x < plane.width + kBorder; ++x) to[x] = from[std::clamp(x, 0, plane.width - 1)];
+    }
+  }
+  std::ptrdiff_t start(int y) const { return std::ptrdiff_t{y + kBorder} * stride + kBorder; }
+  const float* row(int y) const { return values.data() + start(y); }
+};
 
 Channels channelsOf(const Picture& picture) {
   Channels channels{Plane(picture.width, picture.height), Plane(picture.width, picture.height),
@@ -146,17 +174,20 @@ struct Filter {
       : width(halves.first.width),
         height(halves.first.height),
         share(halves.share),
-        half{channelsOf(halves.first), channelsOf(halves.second)},
-        noise{half[0], half[1]},
         features{Feature(guides.normal, 3), Feature(guides.nearness, 1)} {
+    for (const Picture* picture : {&halves.first, &halves.second})
+      for (const Plane& plane : channelsOf(*picture)) half[picture == &halves.second].emplace_back(plane);
     constexpr double Color::*kChannels[] = {&Color::r, &Color::g, &Color::b};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const Plane both = varianceOf(halves, kChannels[c]);
+    for (double Color::*channel : kChannels) {
+      const Plane both = varianceOf(halves, channel);
+      Plane first = both, second = both;
       for (std::size_t i = 0; i < share.size(); ++i) {
-        const auto first = static_cast<float>(share[i] > 0 ? share[i] : 0.5);
-        noise[0][c].values[i] = both.values[i] / first;
-        noise[1][c].values[i] = both.values[i] / (1 - first);
+        const auto part = static_cast<float>(share[i] > 0 ? share[i] : 0.5);
+        first.values[i] /= part;
+        second.values[i] /= 1 - part;
       }
+      noise[0].emplace_back(first);
+      noise[1].emplace_back(second);
     }
   }
 
@@ -165,18 +196,20 @@ struct Filter {
   }
   bool known(int x, int y) const { return share[index(x, y)] > 0; }
 
-  /// How far the colours of a half are apart at (x, y) and at the offset from there, against their noise.
-  float apart(int which, int x, int y, int dx, int dy) const {
-    const int px = std::clamp(x, 0, width - 1), py = std::clamp(y, 0, height - 1);
-    const int qx = std::clamp(px + dx, 0, width - 1), qy = std::clamp(py + dy, 0, height - 1);
+  /// How far the colours of a half are apart at the pixels of a row, from kPatch before its first, and at the
+  /// offset from there, against their noise.
+  void apart(int which, int y, int dx, int dy, float* result) const {
     const auto w = static_cast<std::size_t>(which);
-    float sum = 0;
+    const int count = width + 2 * kPatch;
+    std::fill_n(result, count, 0.0f);
     for (std::size_t c = 0; c < 3; ++c) {
-      const float p = noise[w][c].row(py)[px], q = noise[w][c].row(qy)[qx];
-      const float d = half[w][c].row(py)[px] - half[w][c].row(qy)[qx];
-      sum += (d * d - (p + std::min(p, q))) / (1e-10f + kColours * kColours * (p + q));
+      const float *p = noise[w][c].row(y) - kPatch, *q = noise[w][c].row(y + dy) + dx - kPatch;
+      const float *a = half[w][c].row(y) - kPatch, *b = half[w][c].row(y + dy) + dx - kPatch;
+      for (int x = 0; x < count; ++x) {  // without a branch, so that compilers take several at once
+        const float d = a[x] - b[x], both = p[x] + q[x], least = (both - std::abs(p[x] - q[x])) / 2;
+        result[x] += (d * d - (p[x] + least)) / (1e-10f + kColours * kColours * both);
+      }
     }
-    return sum;
   }
 
   /// The rows y0 <= y < y1 of the result.
@@ -184,77 +217,104 @@ struct Filter {
 
   int width, height;
   const std::vector<double>& share;
-  std::array<Channels, 2> half;
-  std::array<Channels, 2> noise;  ///< variances
+  std::array<std::vector<Bordered>, 2> half;   ///< three channels each
+  std::array<std::vector<Bordered>, 2> noise;  ///< variances
   std::array<Feature, 2> features;
 };
 
 void Filter::take(int y0, int y1, Picture& result) const {
   const int rows = y1 - y0;
   struct Sum {
-    Color color;
-    double weight = 0, squares = 0;
-    void add(const Color& c, double by) {
-      color += c * by;
+    std::array<float, 3> color{};
+    float weight = 0, squares = 0;
+    void add(const std::array<float, 3>& c, float by) {
+      for (std::size_t i = 0; i < 3; ++i) color[i] += c[i] * by;
       weight += by;
       squares += by * by;
     }
-    Color mean() const { return color / weight; }  // each has at least the pixel itself
+    Color mean() const { return Color(color[0], color[1], color[2]) / weight; }  // at least the pixel itself
     double count() const { return weight * weight / squares; }
   };
   struct Sums {
-    Sum byColors, byAll;
-    /// So few pixels of like surfaces are calm only with others of like colours.
+    /// By surfaces and a patch, by surfaces and a small one; then by the patch without surfaces.
+    std::array<Sum, 3> by;
+    /// Each makes up for those before it, as far as these have too few pixels to be calm.
     Color mean() const {
-      const double alone = std::max(0.0, (kEnough - byAll.count()) / (kEnough - 1));
-      return lerp(alone, byAll.mean(), byColors.mean());
+      Color mean = by[2].mean();
+      for (std::size_t i = 2; i-- > 0;)
+        if (by[i].weight > 0)
+          mean = lerp(std::max(0.0, (kEnough - by[i].count()) / (kEnough - 1)), by[i].mean(), mean);
+      return mean;
     }
   };
+  const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(width);
   std::vector<Sums> sums[2];
-  for (auto& all : sums) all.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(width));
-  Plane apartHere(width + 2 * kPatch, rows + 2 * kPatch), across(width, rows + 2 * kPatch);
-  constexpr float kInPatch = (2 * kPatch + 1) * (2 * kPatch + 1) * 3;
-  constexpr float kTooFar = 20;  // counts less than 2e-9
-  for (int dy = -kReach; dy <= kReach; ++dy)
-    for (int dx = -kReach; dx <= kReach; ++dx)
-      for (int which = 0; which < 2; ++which) {
-        lookAtBudget();
-        for (int y = 0; y < apartHere.height; ++y)
-          for (int x = 0; x < apartHere.width; ++x)
-            apartHere.row(y)[x] = apart(which, x - kPatch, y0 + y - kPatch, dx, dy);
-        for (int y = 0; y < across.height; ++y)
-          for (int x = 0; x < width; ++x) {
-            float sum = 0;
-            for (int i = 0; i <= 2 * kPatch; ++i) sum += apartHere.row(y)[x + i];
-            across.row(y)[x] = sum;
-          }
-        const Channels& other = half[static_cast<std::size_t>(1 - which)];
-        for (int y = y0; y < y1; ++y)
-          for (int x = 0; x < width; ++x) {
-            const int u = x + dx, v = y + dy;
-            if (u < 0 || v < 0 || u >= width || v >= height || !known(x, y) || !known(u, v)) continue;
-            float far = 0;
-            for (int i = 0; i <= 2 * kPatch; ++i) far += across.row(y - y0 + i)[x];
-            far = std::max(0.0f, far / kInPatch);
-            if (far > kTooFar) continue;
-            const Color color(other[0].row(v)[u], other[1].row(v)[u], other[2].row(v)[u]);
-            const double byColors = math::exp(-static_cast<double>(far));
-            Sums& sum = sums[1 - which][static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) +
-                                        static_cast<std::size_t>(x)];
-            sum.byColors.add(color, byColors);
-            float surfaces = far;
-            for (const Feature& feature : features) surfaces = std::max(surfaces, feature.apart(x, y, u, v));
-            if (surfaces > kTooFar) continue;
-            sum.byAll.add(color, surfaces > far ? math::exp(-static_cast<double>(surfaces)) : byColors);
-          }
-      }
+  for (auto& all : sums) all.resize(pixels);
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  };
+  Plane apartHere(width + 2 * kPatch, rows + 2 * kPatch);
+  Plane across(width, rows + 2 * kPatch);  // sums of 2 kPatch + 1 beside one another
+  // The distance of the patch around (x, y), or a smaller one, from that at the offset.
+  const auto ofPatch = [&](int x, int y, int reach) {
+    float sum = 0;
+    for (int j = kPatch - reach; j <= kPatch + reach; ++j)
+      if (reach == kPatch)
+        sum += across.row(y - y0 + j)[x];
+      else
+        for (int i = kPatch - reach; i <= kPatch + reach; ++i) sum += apartHere.row(y - y0 + j)[x + i];
+    return std::max(0.0f, sum / static_cast<float>((2 * reach + 1) * (2 * reach + 1) * 3));
+  };
+  const auto isAlone = [&](std::size_t pixel) {
+    return std::min(sums[0][pixel].by[0].count(), sums[1][pixel].by[0].count()) < kEnough;
+  };
+  std::vector<char> alone(pixels, 0);
+  for (const bool again : {false, true}) {  // for those that the whole patch has left alone
+    for (int y = y0; again && y < y1; ++y)
+      for (int x = 0; x < width; ++x) alone[at(x, y)] = known(x, y) && isAlone(at(x, y));
+    if (again && std::find(alone.begin(), alone.end(), 1) == alone.end()) break;
+    for (int dy = -kReach; dy <= kReach; ++dy)
+      for (int dx = -kReach; dx <= kReach; ++dx)
+        for (int which = 0; which < 2; ++which) {
+          lookAtBudget();
+          for (int y = 0; y < apartHere.height; ++y) apart(which, y0 + y - kPatch, dx, dy, apartHere.row(y));
+          for (int y = 0; !again && y < across.height; ++y)
+            for (int x = 0; x < width; ++x) {
+              float sum = 0;
+              for (int i = 0; i <= 2 * kPatch; ++i) sum += apartHere.row(y)[x + i];
+              across.row(y)[x] = sum;
+            }
+          const std::vector<Bordered>& other = half[static_cast<std::size_t>(1 - which)];
+          for (int y = y0; y < y1; ++y)
+            for (int x = 0; x < width; ++x) {
+              const int u = x + dx, v = y + dy;
+              if (again && !alone[at(x, y)]) continue;
+              if (u < 0 || v < 0 || u >= width || v >= height || !known(x, y) || !known(u, v)) continue;
+              Sums& sum = sums[1 - which][at(x, y)];
+              const auto add = [&](std::size_t i, float apart) {
+                if (apart < kTooFar)
+                  sum.by[i].add({other[0].row(v)[u], other[1].row(v)[u], other[2].row(v)[u]},
+                                weightOf(apart));
+              };
+              const float patch = again ? 0 : ofPatch(x, y, kPatch);
+              if (patch >= kTooFar) continue;
+              float surfaces = 0;
+              for (const Feature& feature : features)
+                surfaces = std::max(surfaces, feature.apart(x, y, u, v));
+              if (again) {
+                add(1, std::max(surfaces, ofPatch(x, y, kSmallPatch)));
+              } else {
+                add(0, std::max(surfaces, patch));
+                add(2, patch);
+              }
+            }
+        }
+  }
   for (int y = y0; y < y1; ++y)
     for (int x = 0; x < width; ++x) {
       if (!known(x, y)) continue;
-      const std::size_t at =
-          static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
       const double first = share[index(x, y)];
-      result.at(x, y) = sums[0][at].mean() * first + sums[1][at].mean() * (1 - first);
+      result.at(x, y) = sums[0][at(x, y)].mean() * first + sums[1][at(x, y)].mean() * (1 - first);
     }
 }
 

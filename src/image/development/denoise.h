@@ -7,8 +7,8 @@
 // samples says how the other is averaged, and the other way round, so that noise does not choose what it is
 // averaged with. We differ: features are measured against their slope alone; what is averaged is light over
 // the colour of its surface, so that a texture does not separate pixels (Bitterli et al., Nonlinearly
-// Weighted First-order Regression for Denoising Monte Carlo Renderings, 2016, section 5.1); and where the
-// surfaces leave a pixel alone, as on an edge, colours alone count.
+// Weighted First-order Regression for Denoising Monte Carlo Renderings, 2016, section 5.1); and where a patch
+// leaves a pixel alone, as beside an edge, a smaller one counts, and at last colours without surfaces.
 #pragma once
 
 #include "base/parallel.h"

@@ -91,9 +91,12 @@ Vec3 World::seenPlaceOf(const std::string& name, const Scene& scene) const {
         if (!object.name.empty()) names.insert(object.name);
     }
     const std::vector<std::string_view> known(names.begin(), names.end());
+    const bool isShape = std::any_of(scene.objects.begin(), scene.objects.end(),
+                                     [&](const Object& object) { return object.shape.keyword() == name; });
     throw Error(Fault::usage, "--focus-on: no object of the scene is called \"" + name + "\"",
-                known.empty() ? "give objects names, as in sphere { name = \"ball\"; }, or name a point x,y,z"
-                              : didYouMean(name, known));
+                known.empty() || isShape
+                    ? "give objects names, as in sphere { name = \"ball\"; }, or name a point x,y,z"
+                    : didYouMean(name, known));
   }
   const Vec3 middle = endless || around.empty() ? camera_.eye + camera_.ahead : around.center();
   const bool parallel = camera_.optics.projection == Projection::orthographic;

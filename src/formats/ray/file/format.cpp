@@ -65,18 +65,22 @@ class Reader {
         messages_(messages),
         findings_(syntax, scene, messages, notes),
         materials_(findings_),
-        objects_(findings_, materials_, time) {}
+        objects_(findings_, materials_, time),
+        time_(time) {}
 
   void read() {
-    readItems();
-    objects_.finish();
+    readAll();
     scene_.unusedMaterials = materials_.unused();
     if (Notes* notes = findings_.notes()) notes->last = materials_.current;
     findings_.finish();
     warnOfEmptiness();
     messages_.throwIfFailed();
-    if (syntax_.isOfKind())
-      addKindDefaults(scene_, findings_.given(), syntax_.shortPlace((*syntax_.root().begin()).offset()));
+    if (!syntax_.isOfKind()) return;
+    const std::optional<KindStart> start =
+        time_.changesScene() && kindDefaultsFollow(scene_, findings_.given()) ? startOf(syntax_, time_)
+                                                                              : std::nullopt;
+    addKindDefaults(scene_, findings_.given(), syntax_.shortPlace((*syntax_.root().begin()).offset()),
+                    start ? &*start : nullptr);
   }
   /// Statements for a scene that has others.
   PartGiven readPart() {
@@ -89,6 +93,38 @@ class Reader {
 
  private:
   // --- the file ---
+
+  /// The scene at its start, and what it shows until its last key. Nothing if it cannot be read there.
+  static std::optional<KindStart> startOf(const Syntax& syntax, const SceneTime& time) {
+    std::optional<KindStart> start;
+    Box3 seen;
+    for (const Real moment : {0.0, time.last() / 2, time.last()}) {
+      if (start && moment == 0) break;
+      Scene scene;
+      scene.file = syntax.file();
+      Messages known;  // they are those of the scene itself
+      try {
+        Syntax again(syntax.file(), syntax.source());
+        SceneTime at(moment);
+        settle(again, at, scene.inputs);
+        Reader reader(again, scene, known, at, nullptr);
+        reader.readAll();
+        known.throwIfFailed();
+        seen.extend(boundsOfInterest(scene));
+        if (!start) start = KindStart{std::move(scene), std::move(reader.findings_.given()), {}};
+      } catch (const Error& error) {
+        if (error.fault() == Fault::limit) throw;
+        return std::nullopt;
+      }
+    }
+    start->seen = seen;
+    return start;
+  }
+
+  void readAll() {
+    readItems();
+    objects_.finish();
+  }
 
   void readItems() {
     findings_.take(syntax_.mistakes());
@@ -174,6 +210,7 @@ class Reader {
   Findings findings_;
   Materials materials_;
   ObjectReader objects_;
+  const SceneTime& time_;
   bool hasCamera_ = false, hasBackground_ = false;
 };
 

@@ -113,13 +113,13 @@ class CameraReader {
   /// Settles viewdir and updir from all that was given.
   void direct() {
     if (lookAt_) {
+      if (viewdir_) findings_.warn(*viewdir_, "viewdir is ignored, since look_at is given");
       if (findings_.isOfKind() && !position_) return;  // the place follows (formats/kind_defaults.h)
       camera_.viewdir = target_ - camera_.position;
       if (!hasDirection(camera_.viewdir))
         return findings_.expected(lookAt_->value(), "look_at", "a point other than the camera's position");
       camera_.viewdir =
           normalize(camera_.viewdir);  // where axes are used raw, its length is not the distance
-      if (viewdir_) findings_.warn(*viewdir_, "viewdir is ignored, since look_at is given");
       const bool vertical = camera_.viewdir.x == 0 && camera_.viewdir.z == 0;
       if (!updir_) camera_.updir = vertical ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     } else if (viewdir_ && !updir_ && findings_.isOfKind()) {

@@ -18,7 +18,8 @@ constexpr const char* kForm =
 /// Copies the tree, with values in the place of keys.
 class Settler {
  public:
-  Settler(const Syntax& syntax, Real time) : syntax_(syntax), all_(syntax.nodes()), time_(time) {}
+  Settler(const Syntax& syntax, SceneTime& time)
+      : syntax_(syntax), all_(syntax.nodes()), moments_(time), time_(time.now()) {}
 
   std::vector<Node> settled() {
     copy(0);
@@ -54,6 +55,7 @@ class Settler {
     }
     if (values.empty()) fail(call, std::string("expected ") + kForm);
     for (std::uint32_t other : values) checkAlike(values.front(), other);
+    moments_.hasKey(times.back());
     write(call, times, values, interpolation);
   }
 
@@ -115,6 +117,7 @@ class Settler {
 
   const Syntax& syntax_;
   std::span<const Node> all_;
+  SceneTime& moments_;
   Real time_;
   std::vector<Node> result_;
 };
@@ -122,7 +125,7 @@ class Settler {
 }  // namespace
 
 void settleKeys(Syntax& syntax, SceneTime& time) {
-  if (syntax.hasKeys()) syntax.replace(Settler(syntax, time.now()).settled());
+  if (syntax.hasKeys()) syntax.replace(Settler(syntax, time).settled());
 }
 
 }  // namespace trace::rayfile

@@ -261,11 +261,12 @@ class Patch {
       addMaterials(operand.shape, operand.material, used);
   }
 
+  /// Named materials that were added; one without a name was made for an object that has another now.
   void noteUnused(const Scene& edited, std::size_t known) {
     std::set<std::uint32_t> used;
     for (const Object& object : edited.objects) addMaterials(object.shape, object.material, used);
     for (std::size_t i = known; i < edited.materials.size(); ++i)
-      if (!used.contains(static_cast<std::uint32_t>(i)))
+      if (!edited.materials[i].name.empty() && !used.contains(static_cast<std::uint32_t>(i)))
         messages_.warn(SourcePlace{.file = read_.file},
                        nameOf(edited.materials[i], i) + " is not kept: no object has it");
   }
