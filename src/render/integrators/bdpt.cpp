@@ -57,9 +57,7 @@ Bidirectional::Ways Bidirectional::waysOf(const Sampler& sampler) const {
 
 Bidirectional::Sample Bidirectional::sampleOf(const Sampler& sampler, std::vector<Thrown>* thrown) const {
   Sampler spectrum = sampler.branch(Branch::spectrum);
-  Sample sample{spectrum.next(), spectrum.next(), waysOf(sampler)};
-  sample.thrown = thrown;
-  return sample;
+  return {spectrum.next(), spectrum.next(), waysOf(sampler), thrown};
 }
 
 void Bidirectional::throwLight(Tracer& tracer, const Sampler& sampler, std::vector<Thrown>& thrown) const {

@@ -14,7 +14,8 @@ void Bidirectional::joinAll(Gather& sum, const PathPlace& at, const Path& path, 
     askLights(sum, at, path, factor, sample);
     askLamps(sum, at, path, factor, sample);
   }
-  for (const LightPlace& place : sample.lights) join(sum, at, path, counts, factor, place, sample);
+  for (std::size_t i = 0; i < sample.lights.size(); ++i)
+    join(sum, at, path, counts, factor, sample.lights[i], sample);
 }
 
 /// s = 1: the scene's lights.

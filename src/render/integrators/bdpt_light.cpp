@@ -70,8 +70,8 @@ void Bidirectional::walkFromLight(Tracer& tracer, const Sampler& sampler, Sample
     f.kept = maxComponent(f.weight * passes) / maxComponent(f.weight);
     f.weight *= passes;
     if (isBlack(f.weight)) return;
-    LightPlace& place = where ? sample.lights.emplace_back(f.ray, f.inside, *where)
-                              : sample.lights.emplace_back(tracer, f.ray, f.inside, *f.hit, sample.shift);
+    LightPlace& place = where ? sample.lights.push(f.ray, f.inside, *where)
+                              : sample.lights.push(tracer, f.ray, f.inside, *f.hit, sample.shift);
     f.partial.arrive(f.parallel ? 1 : t * t, place.place.cosine(f.ray.direction));
     const bool linked = !lit || where || tracer.world().lights(start->light, f.hit->object);
     ++(where ? f.counts.scatterings : f.counts.surfaces);

@@ -1,10 +1,10 @@
 // The state of the two paths of Bidirectional.
 #pragma once
 
-#include <deque>
 #include <optional>
 #include <utility>
 
+#include "base/inline_stack.h"
 #include "render/integrators/bdpt.h"
 #include "render/paths/partial_sums.h"
 #include "render/paths/path_place.h"
@@ -67,11 +67,15 @@ struct Bidirectional::LightPlace : Bidirectional::Carried {
 
 /// The data shared by both paths of a sample.
 struct Bidirectional::Sample {
+  /// Not an aggregate, which would clear the memory of `lights`.
+  Sample(Real spectrum_, Real shift_, const Ways& ways_, std::vector<Thrown>* thrown_)
+      : spectrum(spectrum_), shift(shift_), ways(ways_), thrown(thrown_) {}
+
   Real spectrum;  ///< chooses the wavelength, should a path be split
   Real shift;     ///< shift of all wavelengths to choose from
   Ways ways;
-  std::deque<LightPlace> lights{};
-  std::vector<Thrown>* thrown = nullptr;
+  std::vector<Thrown>* thrown;
+  InlineStack<LightPlace, 6> lights;
 };
 
 }  // namespace trace
