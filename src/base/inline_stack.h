@@ -36,9 +36,13 @@ class InlineStack {
     --count_;
   }
   bool empty() const { return count_ == 0; }
+  std::size_t size() const { return count_; }
+  /// Item i from the bottom.
+  const T& operator[](std::size_t i) const { return i < kFew ? *few(i) : *many_[i - kFew]; }
 
  private:
   T* few(std::size_t i) { return std::launder(reinterpret_cast<T*>(data_) + i); }
+  const T* few(std::size_t i) const { return std::launder(reinterpret_cast<const T*>(data_) + i); }
 
   alignas(T) std::byte data_[kFew * sizeof(T)];  // not set before it is used
   std::vector<std::unique_ptr<T>> many_;

@@ -53,12 +53,19 @@ constexpr Vec2 rotated(const Vec2& p, const Vec2& by) {
   return {turned(p.x, by.x), turned(p.y, by.y)};
 }
 
+/// Where the order of the seed's own puts point i.
+constexpr std::uint32_t sobolOrder(std::uint32_t i, std::uint64_t seed) {
+  return owenScrambled(i, mixBits(seed ^ 1));
+}
+/// The point that comes there, with scrambling of the seed's own.
+constexpr Vec2 sobolPointInOrder(std::uint32_t k, std::uint64_t seed) {
+  return {reversedBits(owenScrambledReversed(k, mixBits(seed ^ 2))) * 0x1p-32,
+          reversedBits(owenScrambledReversed(sobolSecondReversed(k), mixBits(seed ^ 3))) * 0x1p-32};
+}
 /// Point i of that sequence, in an order and with scrambling of the seed's own (Burley, Practical Hash-based
 /// Owen Scrambling, 2020).
 constexpr Vec2 sobolPoint(std::uint32_t i, std::uint64_t seed) {
-  const std::uint32_t k = owenScrambled(i, mixBits(seed ^ 1));
-  return {reversedBits(owenScrambledReversed(k, mixBits(seed ^ 2))) * 0x1p-32,
-          reversedBits(owenScrambledReversed(sobolSecondReversed(k), mixBits(seed ^ 3))) * 0x1p-32};
+  return sobolPointInOrder(sobolOrder(i, seed), seed);
 }
 
 /// The bits of Sobol's third and fourth dimension for each byte of a point's number, bits reversed: with
@@ -88,9 +95,8 @@ constexpr SobolBytes sobolBytes() {
 }
 inline constexpr SobolBytes kSobolBytes = sobolBytes();
 
-/// The third and fourth coordinate of the same point i, scrambled likewise.
-constexpr Vec2 sobolPointBeside(std::uint32_t i, std::uint64_t seed) {
-  const std::uint32_t k = owenScrambled(i, mixBits(seed ^ 1));
+/// Its third and fourth coordinate, scrambled likewise.
+constexpr Vec2 sobolPointBesideInOrder(std::uint32_t k, std::uint64_t seed) {
   const auto coordinate = [&](int dimension) {
     const auto& bytes = kSobolBytes.of[dimension];
     const std::uint32_t reversed =
@@ -99,6 +105,10 @@ constexpr Vec2 sobolPointBeside(std::uint32_t i, std::uint64_t seed) {
     return reversedBits(owenScrambledReversed(reversed, own)) * 0x1p-32;
   };
   return {coordinate(0), coordinate(1)};
+}
+/// The third and fourth coordinate of the same point i.
+constexpr Vec2 sobolPointBeside(std::uint32_t i, std::uint64_t seed) {
+  return sobolPointBesideInOrder(sobolOrder(i, seed), seed);
 }
 
 /// i written in `base` and mirrored at the point (van der Corput 1935), with digits permuted by the seed.

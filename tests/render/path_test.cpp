@@ -42,6 +42,31 @@ TEST(Path, AnEmittingRoomHasTheSumOfItsBounces) {
     }
 }
 
+/// Rays are recorded where a surface of any kind turns the path, and rendered where an even one does
+/// (EvenPoint).
+TEST(Path, WhatIsExplainedHasTheBitsOfWhatIsRendered) {
+  Random random(31);
+  for (int s = 0; s < 6; ++s) {
+    Scene scene = randomScene(random, 12);
+    if (s % 2 == 0) scene.lights.clear();
+    for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+      Phong phong = *scene.materials[m].model.as<Phong>();
+      if (m % 3 != 0) phong.specular = phong.reflective = phong.transmissive = Color(0);
+      if (m % 4 == 1) phong.emissive = {2, 1, 3};
+      scene.materials[m].model = phong;
+    }
+    if (s == 4) addCloud(scene, Sphere{}, scaled(4), 0.1);
+    const Settings settings = pathSettings(5, 4);
+    const World world = build(scene, settings);
+    const auto integrator = integratorOf(world, settings);
+    const Picture rendered = picture(scene, settings);
+    for (int y = 0; y < 16; y += 3)
+      for (int x = 0; x < 16; x += 3)
+        EXPECT_EQ(explain(world, *integrator, settings, {16, 16}, x, y, 0).pixel,
+                  rendered.pixels[static_cast<std::size_t>(y * 16 + x)]);
+  }
+}
+
 TEST(Path, SquareLampLightsTheFloorByItsFormFactor) {
   const Affine above = Affine::translation({0, 1, 0}) * turned({1, 0, 0}, 0.5);
   EXPECT_NEAR(floorUnder(Square{}, above), 0.752275 / kPi, 0.001);

@@ -3,9 +3,7 @@
 #include <algorithm>
 
 #include "render/integrators/bdpt_paths.h"
-#include "render/paths/onward.h"
-#include "render/paths/subsurface.h"
-#include "shading/materials/subsurface.h"
+#include "render/paths/arrival.h"
 
 namespace trace {
 
@@ -59,9 +57,7 @@ Bidirectional::Ways Bidirectional::waysOf(const Sampler& sampler) const {
 
 Bidirectional::Sample Bidirectional::sampleOf(const Sampler& sampler, std::vector<Thrown>* thrown) const {
   Sampler spectrum = sampler.branch(Branch::spectrum);
-  Sample sample{spectrum.next(), spectrum.next(), waysOf(sampler)};
-  sample.thrown = thrown;
-  return sample;
+  return {spectrum.next(), spectrum.next(), waysOf(sampler), thrown};
 }
 
 void Bidirectional::throwLight(Tracer& tracer, const Sampler& sampler, std::vector<Thrown>& thrown) const {
@@ -89,6 +85,11 @@ Color Bidirectional::along(Tracer& tracer, Path& path, const std::optional<Hit>&
   });
 }
 
+/// The chance of Russian roulette, where that much is left of the path's throughput.
+Real Bidirectional::keeps(const Path& path, Real left) const {
+  return path.counts.all() < kSurely ? 1 : std::min(1.0, left);
+}
+
 /// Joins the place where the path arrives with all others, and turns the path; or ends it.
 std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std::optional<Hit>& hit,
                                            Turns& turns, const Sample& sample) const {
@@ -102,18 +103,16 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
   const bool mostOften = path.counts.scatterings > 0 && path.counts.scatterings >= mostScattered_;
   const bool last = path.counts.surfaces > depth_ || mostOften;  // it looks for emitters only
   const auto shines = [&] { return share(0, t, 0, sample); };    // what no other way finds
-  std::optional<MediumWay> media;
-  if (isThick(tracer) && !path.within) {
-    Sampler numbers = path.numbers.branch(Branch::medium);
-    media = throughMedia(tracer, ray, end, path.inside, last ? 0 : 1, path.weight, numbers.branch(0));
-    if (const auto where = placeByChance(*media, path.weight, numbers.next()))
-      return scatter(tracer, path, *media, *where, turns, sample);
-    path.weight *= media->passes;
-    media->glows *= Color(shines());
+  LegMedia media(tracer, path, end, last ? 0 : 1);
+  if (media.place) return scatter(tracer, path, media, turns, sample);
+  if (media.way) {
+    path.weight *= media.way->passes;
+    media.way->glows *= Color(shines());
   }
   Turn& turn = turns.push(tracer, path.counts.all(), path.ink);
-  turn.media = std::move(media);
+  turn.media = std::move(media.way);
   Gather& sum = turn.sum;
+  if (end < kInfinity && !path.within) turn.passed = path.inside.passed(end);
   /// s = 0: the emitter there was hit with the densities of being asked for and of having started there.
   const auto met = [&](Term::Kind kind, const Color& light, Real asked, Real started) {
     const Partial& p = path.partial;
@@ -123,7 +122,6 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
     sum.addWay(kind, Color(counts), light, ConnectionTerm{0, t, counts});
   };
   if (lamp) {
-    turn.passed = path.inside.passed(end);
     sum.addWay(Term::Kind::emissive, Color(shines()), lamp->seen.color, ConnectionTerm{0, t, shines()});
     sum.stop(MetLight{lamp->light, lamp->seen.t});
     return turns.end();
@@ -134,19 +132,8 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
           path.fromMedium ? 0 : starts_.ofSky(ray.origin, ray.direction));
     return turns.end();
   }
-  if (!path.within) turn.passed = path.inside.passed(end);
-  Footprint footprint;
-  if (const Differentials* differentials = path.footprint.get())
-    footprint = arrivedAt(*hit, *differentials, ray.direction);
-  Interaction at(tracer, ray, *hit, footprint.get(), path.inside, sample.shift);
-  std::unique_ptr<const SubsurfaceBsdf> body;
-  if (path.within)
-    at.letIn();
-  else if (world.hasSubsurface())
-    body = at.takeBody();
-  sum.note(at.bsdf());
-  sum.note(at.raised());
-  sum.note(at.indices);
+  const Arrival arrival(tracer, path, *hit, turn, sample.shift);
+  const Interaction& at = arrival.at;
   const PathPlace place(at);
   const Real cosine = place.cosine(ray.direction), distance2 = hit->t * hit->t;
   path.partial.arrive(path.kind == RayKind::camera && camera_.parallel() ? 1 : distance2, cosine);
@@ -159,33 +146,19 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
     return turns.end();
   }
   const Counts counts = path.counts + Counts{1, 0};
-  joinAll(sum, place, path, counts, Color(1), path.numbers, sample);
+  joinAll(sum, place, path, counts, Color(1), sample);
 
-  // Where light went in that comes out here is the same place of the path: of what is seen first several
-  // such places, else perhaps one.
-  const auto throughBody = [&](std::uint32_t n, Real part) {
-    const Sampler own = path.numbers.branch(Branch::bdptBody).branch(n);
-    const auto in = entrance(at, *body, path.weight, own.branch(0));
-    if (!in) return;
-    const Color factor = in->weight * part;
-    Path within{{in->ray, path.inside, own.branch(1), RayKind::refraction}};
-    within.counts = path.counts;
-    within.weight = path.weight * factor;
-    within.within = true;
-    sum.add(factor, along(tracer, within, in->hit, sample), in->how);
+  // Where light went in that comes out here is the same place of the path.
+  const auto within = [&](const Leg& leg, const Hit& entered) {
+    Path inner{leg, path.counts};
+    return along(tracer, inner, entered, sample);
   };
-  std::optional<Real> intoBody;
-  if (body) {
-    const bool many = path.counts.surfaces == 0;
-    const int places = many ? tracer.settings().subsurfaceSamples : 0;
-    for (int n = 0; n < places; ++n) throughBody(static_cast<std::uint32_t>(n), 1.0 / places);
-    intoBody = many ? 0 : maxComponent(body->albedo) * maxComponent(body->passes(at.cosine));
-  }
-  const Onward onward(at, sample.spectrum, intoBody);
+  const BodyLight body(sum, arrival, path, Branch::bdptBody, within);
+  const Onward onward(at, sample.spectrum, body.addFirst(path.counts.surfaces == 0));
   Sampler numbers = path.numbers.branch(Branch::choice);
   const Real choice = numbers.next();
   if (const Real likely = onward.goesIntoBody(choice); likely > 0) {
-    throughBody(0, 1 / likely);
+    body.add(0, 1 / likely);
     return turns.end();
   }
   if (sample.ways.camera == t) return turns.end();
@@ -198,8 +171,7 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
   const RayKind kind = next->kind;
   const bool bounces = kind == RayKind::bounce;
   const Color weight = kind == RayKind::refraction ? next->weight * onward.response() : next->weight;
-  const Real most = maxComponent(path.weight * weight);
-  const Real goes = path.counts.all() < kSurely ? 1 : std::min(1.0, most);
+  const Real most = maxComponent(path.weight * weight), goes = keeps(path, most);
   if (path.counts.surfaces >= depth_ && !bounces) {
     sum.stop(DepthLimit{kind, depth_});
   } else if (!(most > 0)) {
@@ -208,63 +180,42 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
     sum.stop(Roulette{kind, goes});
   } else {
     const Vec3 from = -ray.direction, to = next->direction;
-    turn.factor = weight * (1 / goes);
-    turn.weight = path.weight * turn.factor;
     turn.density = next->density;
     path.fromLights = path.fromLights || (bounces && comesFromLights(path));
-    path.asked = bounces || (kind == RayKind::refraction && path.asked && tracer.lightPasses(at.bsdf()));
     if (next->density > 0)
       path.partial.leave(next->density, place.density(to, from), place.cosine(to));
     else
       path.partial.reflect(place.cosine(to));
     path.counts = counts;
-    path.weight = turn.weight;
-    path.fromMedium = path.within = false;
-    goOn(path, turn, at, footprint.get(), *next);
+    path.fromMedium = false;
+    goOn(path, turn, at, arrival.footprint.get(), *next, weight * (1 / goes));
     return {};
   }
   return turns.end();
 }
 
 /// Joins and turns the path where a medium on the way scatters it.
-std::optional<Color> Bidirectional::scatter(Tracer& tracer, Path& path, const MediumWay& way,
-                                            const MediumWay::Place& where, Turns& turns,
+std::optional<Color> Bidirectional::scatter(Tracer& tracer, Path& path, const LegMedia& media, Turns& turns,
                                             const Sample& sample) const {
-  Turn& turn = turns.push(tracer, path.counts.all(), path.ink);
-  turn.passed = path.inside.passed(where.t);
-  Gather& sum = turn.sum;
-  if (!isBlack(way.glows)) {
-    const Real counts = share(0, path.t(), 0, sample);
-    sum.add(Color(counts), way.glows, MediumTerm{MediumTerm::What::glows});
-  }
+  const MediumWay::Place& where = *media.place;
+  Turn& turn = pushScattered(turns, tracer, path.counts.all(), path, media, share(0, path.t(), 0, sample));
   path.partial.arrive(path.kind == RayKind::camera && camera_.parallel() ? 1 : where.t * where.t, 1);
   const PathPlace place(path.ray, where, path.inside);
   const Counts counts = path.counts + Counts{0, 1};
-  joinAll(sum, place, path, counts, where.weight, path.numbers, sample);
+  joinAll(turn.sum, place, path, counts, where.weight, sample);
   if (sample.ways.camera == path.t()) return turns.end();
 
   Sampler numbers = path.numbers.branch(Branch::choice);
-  const Real most = maxComponent(path.weight * where.weight);
-  const Real goes = path.counts.all() < kSurely ? 1 : std::min(1.0, most);
+  const Real most = maxComponent(path.weight * where.weight), goes = keeps(path, most);
   if (!(most > 0) || !(numbers.next() < goes)) {
-    sum.stop(Roulette{RayKind::bounce, goes});
+    turn.sum.stop(Roulette{RayKind::bounce, goes});
     return turns.end();
   }
-  const auto [direction, density] =
-      samplePhase(path.ray.direction, where.forward, path.numbers.branch(Branch::lobe).next2());
-  turn.factor = where.weight / goes;
-  turn.weight = path.weight * turn.factor;
-  turn.density = density;
-  turn.scatters = MediumTerm{MediumTerm::What::follows, where.object, where.t, where.forward};
   path.fromLights = path.fromLights || comesFromLights(path);
-  path.fromMedium = path.asked = true;
-  path.partial.leave(density, density, 1);
+  path.fromMedium = true;
+  goOn(path, turn, where, goes, path.numbers.branch(Branch::lobe).next2());
+  path.partial.leave(turn.density, turn.density, 1);
   path.counts = counts;
-  path.weight = turn.weight;
-  path.kind = RayKind::bounce;
-  path.footprint = {};
-  path.ink = 0;
-  path.ray = {place.point(), direction};
   return {};
 }
 

@@ -10,12 +10,7 @@
 //   else     a place of one and a place of the other see each other
 //
 // Places lie on surfaces and in media (render/paths/path_place.h). The same path can come about in several
-// ways; w is the power heuristic over their densities. Each path carries two partial sums of density ratios
-// (van Antwerpen, Recursive MIS Computation for Streaming BDPT on the GPU, 2011; Georgiev, Implementing
-// Vertex Connection and Merging, 2012), so that w takes no loop:
-//
-//   vcm  densities of all ways in which the place was not joined from the other end, over that of this path
-//   vc   those in which the place before it was not reached from this end, likewise
+// ways; w is the power heuristic over their densities, by partial sums (render/paths/partial_sums.h).
 //
 // Left out of the densities are chances of Russian roulette, of the choice between lobe, mirror and glass, of
 // the choice among lights, and of how far a ray gets in a medium: any weights that sum up to 1 give the same
@@ -37,6 +32,7 @@
 #include "render/lights/lamps.h"
 #include "render/lights/light_starts.h"
 #include "render/media/media.h"
+#include "render/paths/partial_sums.h"
 #include "render/rays/gather.h"
 #include "render/samples/integrator.h"
 #include "shading/cameras/importance.h"
@@ -45,6 +41,7 @@ namespace trace {
 
 class PathPlace;
 class Turns;
+struct LegMedia;
 
 class Bidirectional : public Integrator {
  public:
@@ -58,7 +55,8 @@ class Bidirectional : public Integrator {
 
  private:
   // integrators/bdpt_paths.h
-  struct Partial;
+  using Partial = PartialSums;
+  struct Carried;
   struct Counts;
   struct Path;
   struct Sample;
@@ -76,13 +74,14 @@ class Bidirectional : public Integrator {
   Real share(int s, int t, Real others, const Sample& sample) const;
   bool allows(const Counts& whole, Last last) const;
   bool comesFromLights(const Path& path) const;
+  Real keeps(const Path& path, Real left) const;
 
   // The path from the camera: integrators/bdpt.cpp.
   Color along(Tracer& tracer, Path& path, const std::optional<Hit>& hit, const Sample& sample) const;
   std::optional<Color> arrive(Tracer& tracer, Path& path, const std::optional<Hit>& hit, Turns& turns,
                               const Sample& sample) const;
-  std::optional<Color> scatter(Tracer& tracer, Path& path, const MediumWay& way,
-                               const MediumWay::Place& where, Turns& turns, const Sample& sample) const;
+  std::optional<Color> scatter(Tracer& tracer, Path& path, const LegMedia& media, Turns& turns,
+                               const Sample& sample) const;
 
   // The one from a light: integrators/bdpt_light.cpp.
   struct Flight;
@@ -95,13 +94,13 @@ class Bidirectional : public Integrator {
   // The connections of both paths: integrators/bdpt_joins.cpp. `factor` is the place's factor besides the
   // path's weight.
   void joinAll(Gather& sum, const PathPlace& at, const Path& path, const Counts& counts, const Color& factor,
-               const Sampler& sampler, const Sample& sample) const;
+               const Sample& sample) const;
   void askLights(Gather& sum, const PathPlace& at, const Path& path, const Color& factor,
-                 const Sampler& sampler, const Sample& sample) const;
+                 const Sample& sample) const;
   void askLamps(Gather& sum, const PathPlace& at, const Path& path, const Color& factor,
-                const Sampler& sampler, const Sample& sample) const;
+                const Sample& sample) const;
   void join(Gather& sum, const PathPlace& at, const Path& path, const Counts& counts, const Color& factor,
-            const LightPlace& light, const Sampler& sampler, const Sample& sample) const;
+            const LightPlace& light, const Sample& sample) const;
 
   /// Paths of fewer bounces are not ended at random.
   static constexpr int kSurely = 3;

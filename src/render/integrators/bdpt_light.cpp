@@ -6,12 +6,9 @@
 
 namespace trace {
 
-/// A path from a light on its way to the next place.
-struct Bidirectional::Flight {
-  Ray ray;
-  Interfaces inside;
-  std::optional<Hit> hit;
-  Sampler numbers;
+/// A path from a light on its way to the next place; its weight is its power.
+struct Bidirectional::Flight : Leg, Bidirectional::Carried {
+  std::optional<Hit> hit{};
   bool parallel = false;  ///< it comes straight from beyond all distances
   bool fromSky = false;   ///< ... from the environment
   /// Nothing has turned it. The next vertex is `way` farther from the light, which arrives there by its own
@@ -20,11 +17,7 @@ struct Bidirectional::Flight {
   Real way = 0;
   Color through{1};
   bool open = true;  ///< it has hit only what shadow rays pass, too: no vertices of the path, as if holes
-  Color power{1}, response{1};
-  Real kept = 1;  ///< fraction of its power, where it was scattered last
-  Partial partial{};
-  Counts counts{};
-  Last last = Last::lobe;
+  Real kept = 1;     ///< fraction of its power, where it was scattered last
 };
 
 /// The light that remains at its next vertex: where a medium scatters it, or on the surface.
@@ -37,12 +30,10 @@ Color Bidirectional::travels(Tracer& tracer, const Flight& f, std::optional<Medi
       passes *= Color(fog.passes({f.hit->surface.point, -f.ray.direction}, kInfinity));
     return passes;
   }
-  if (!isThick(tracer)) return f.inside.passed(far);
-  Sampler numbers = f.numbers.branch(Branch::medium);
-  const int places = f.counts.scatterings < mostScattered_ ? 1 : 0;
-  MediumWay way = throughMedia(tracer, f.ray, far, f.inside, places, f.power, numbers.branch(0));
-  where = placeByChance(way, f.power, numbers.next());
-  return where ? where->weight * f.inside.passed(where->t) : way.passes * f.inside.passed(far);
+  LegMedia media(tracer, f, far, f.counts.scatterings < mostScattered_ ? 1 : 0);
+  where = media.place;
+  if (where) return where->weight * f.inside.passed(where->t);
+  return media.way ? media.way->passes * f.inside.passed(far) : f.inside.passed(far);
 }
 
 /// Keeps the places of a path from a light, and lets those land that the camera sees.
@@ -53,8 +44,11 @@ void Bidirectional::walkFromLight(Tracer& tracer, const Sampler& sampler, Sample
   auto start = starts_.start(tracer, sampler);
   if (!start) return;
   const bool ofLight = start->light != LightStarts::kNoLight;
-  Flight f{start->ray, std::move(start->inside), std::move(start->hit),
-           sampler,    start->parallel,          start->parallel && !ofLight};
+  Flight f{{start->ray, std::move(start->inside), sampler, RayKind::light},
+           {},
+           std::move(start->hit),
+           start->parallel,
+           start->parallel && !ofLight};
   while (f.hit || (isThick(tracer) && !f.parallel)) {
     aside.goOn();
     std::optional<MediumWay::Place> where;
@@ -66,27 +60,24 @@ void Bidirectional::walkFromLight(Tracer& tracer, const Sampler& sampler, Sample
       const auto arrival =
           starts_.arrives(tracer.world(), *start, where ? f.ray.at(where->t) : f.hit->surface.point, t);
       if (!arrival) return;
-      f.power = arrival->power * f.through;
+      f.weight = arrival->power * f.through;
       f.through *= passes;
       if (f.open) {
         f.partial = {Partial::power(arrival->asked), Partial::power(arrival->met)};
         f.last = where ? Last::medium : Last::lobe;
       }
     }
-    f.kept = maxComponent(f.power * passes) / maxComponent(f.power);
-    f.power *= passes;
-    if (isBlack(f.power)) return;
-    LightPlace& place = where ? sample.lights.emplace_back(f.ray, f.inside, *where)
-                              : sample.lights.emplace_back(tracer, f.ray, f.inside, *f.hit, sample.shift);
+    f.kept = maxComponent(f.weight * passes) / maxComponent(f.weight);
+    f.weight *= passes;
+    if (isBlack(f.weight)) return;
+    LightPlace& place = where ? sample.lights.push(f.ray, f.inside, *where)
+                              : sample.lights.push(tracer, f.ray, f.inside, *f.hit, sample.shift);
     f.partial.arrive(f.parallel ? 1 : t * t, place.place.cosine(f.ray.direction));
     const bool linked = !lit || where || tracer.world().lights(start->light, f.hit->object);
     ++(where ? f.counts.scatterings : f.counts.surfaces);
-    place.power = linked ? f.power : Color(0);
-    place.response = f.response;
-    place.partial = f.partial;
+    place.power = linked ? f.weight : Color(0);
+    static_cast<Carried&>(place) = f;
     place.lit = lit;
-    place.counts = f.counts;
-    place.last = f.last;
     land(tracer, place, sample, f.numbers);
     if (!(where ? scatters(f, *where) : goesOn(f, place, sample))) return;
     if ((!linked && !f.straight) || (ways.light == place.s() && !f.open)) return;
@@ -101,7 +92,7 @@ bool Bidirectional::scatters(Flight& f, const MediumWay::Place& where) const {
   Sampler numbers = f.numbers.branch(Branch::choice);
   const Real goes = f.counts.all() <= kSurely ? 1 : std::min(1.0, f.kept);
   if (!(numbers.next() < goes)) return false;
-  f.power *= Color(1 / goes);
+  f.weight *= Color(1 / goes);
   f.straight = f.open = false;
   f.way = 0;
   const PhaseSample to = samplePhase(f.ray.direction, where.forward, f.numbers.branch(Branch::lobe).next2());
@@ -121,11 +112,11 @@ bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sam
       onward.choose(choice.next(), lobeNumbers(f.numbers.branch(Branch::lobe)), true, place.lit);
   if (!next) return false;
   const Color& weight = next->weight;
-  const Real keeps = maxComponent(f.power * weight) / maxComponent(f.power);
+  const Real keeps = maxComponent(f.weight * weight) / maxComponent(f.weight);
   const Real goes = f.counts.all() <= kSurely ? 1 : std::min(1.0, keeps);
   if (!(choice.next() < goes)) return false;
-  f.power *= weight * (1 / goes);
-  if (isBlack(f.power)) return false;
+  f.weight *= weight * (1 / goes);
+  if (isBlack(f.weight)) return false;
   const Vec3 from = -f.ray.direction, to = next->direction;
   const Real cosine = place.place.cosine(to);
   f.straight = place.lit && next->kind == RayKind::refraction && next->ratio == 1;
@@ -167,14 +158,11 @@ void Bidirectional::land(Tracer& tracer, const LightPlace& light, const Sample& 
   const Real counts = share(s, 1, others, sample);
   if (!(counts > 0)) return;
   const Ray ray = place.leave(toEye);
-  const Interfaces there = place.side(toEye);
   const Tracer::Joining joining(tracer);
-  const Color passed = place.visible(tracer, ray, seen->distance, sampler.branch(Branch::land)) *
-                       (there.nested() ? Color(1) : there.passed(seen->distance));
+  const Color passed = place.visible(tracer, ray, seen->distance, sampler.branch(Branch::land));
   if (!sample.thrown || isBlack(passed)) return;
-  const Fog fog(tracer.settings());
-  const Real clear = fog.none() || !isInOpenAir(there, tracer.world()) ? 1 : fog.passes(ray, seen->distance);
-  sample.thrown->push_back({seen->place, factor * passed * (perArea * counts * clear), s});
+  sample.thrown->push_back(
+      {seen->place, factor * passed * place.clear(tracer, ray, seen->distance) * (perArea * counts), s});
 }
 
 }  // namespace trace

@@ -15,7 +15,7 @@
 
 #include "render/integrators/terminator.h"
 #include "render/lights/lamps.h"
-#include "render/paths/walk.h"
+#include "render/paths/arrival.h"
 #include "render/samples/integrator.h"
 
 namespace trace {
@@ -29,15 +29,12 @@ class PathTracer : public Integrator {
 
  protected:
   struct Path : Leg {
-    int depth = 0;        ///< bounces, and rays of mirrors and glass
-    int scattered = 0;    ///< number of times, by media
-    Color weight{1};      ///< weight of the ray's radiance in the sample
-    Real density = 0;     ///< density of its direction, among lobes; 0 where there was one only
-    Vec3 from{};          ///< place for which that holds: panes may lie between it and the ray
-    bool within = false;  ///< it runs in a body, from where light comes out
-    /// It was scattered, and on through nothing but glass that shadow rays pass: lights were asked.
-    bool asked = false;
+    int depth = 0;      ///< bounces, and rays of mirrors and glass
+    int scattered = 0;  ///< number of times, by media
+    Real density = 0;   ///< density of its direction, among lobes; 0 where there was one only
+    Vec3 from{};        ///< place for which that holds: panes may lie between it and the ray
     Terminator::Told told{};
+    std::optional<Vec2> second{};  ///< second2() of the numbers that led here, if it was drawn already
   };
   /// The radiance along the ray of the path, which was cast last and ends at `hit`.
   Color along(Tracer& tracer, Path& path, const std::optional<Hit>& hit) const;
@@ -49,17 +46,24 @@ class PathTracer : public Integrator {
 
  private:
   std::optional<Color> arrive(Tracer& tracer, Path& path, const std::optional<Hit>& hit, Turns& turns) const;
-  std::optional<Color> scatter(Tracer& tracer, Path& path, const MediumWay& way,
-                               const MediumWay::Place& place, Turns& turns) const;
+  std::optional<Color> scatter(Tracer& tracer, Path& path, const LegMedia& media, Turns& turns) const;
+  std::optional<Color> turnAt(Tracer& tracer, Path& path, const Hit& hit, bool known, bool last,
+                              Turns& turns) const;
+  std::optional<Color> turnEvenly(Tracer& tracer, Path& path, const Hit& hit, const PhongBsdf& bsdf,
+                                  bool last, Turns& turns) const;
+  void addEmission(Gather& sum, const Path& path, const Hit& hit, const Color& emissive) const;
+  /// The light of one point on the emitters; `shareOfLobe` is how often a ray into the lobe is followed.
+  template <class Point>
+  void addLamp(Gather& sum, const Point& at, Real shareOfLobe, const Path& path) const;
   /// Straight behind the surface the path still meets the lamps for which the place before it was asked.
   static bool meetsBehind(const Path& path, const Interaction& at) {
     return path.density > 0 && at.tracer.isPane(at.bsdf());
   }
-  void follow(Path& path, Turn& turn, const Interaction& at, const Differentials* arrived,
-              const Onward::Ray& next, const Color& factor) const;
-  void addLamp(Gather& sum, const Interaction& at, Real shareOfLobe, const Sampler& numbers) const;
+  static void follow(Path& path, Turn& turn, const Arrival& arrival, const Onward::Ray& next,
+                     const Color& factor);
 
   bool bounces_;
+  bool knowsEvenPoints_ = false;  ///< what EvenPoint says holds
 };
 
 }  // namespace trace

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "math/low_discrepancy.h"
-#include "render/media/media.h"
-#include "render/paths/interaction.h"
+#include "render/media/lamp_light.h"
+#include "render/paths/path_place.h"
 #include "render/paths/subsurface.h"
 #include "render/rays/fog.h"
 #include "render/rays/gather.h"
@@ -228,24 +228,22 @@ void Whitted::addLamps(Gather& sum, const Interaction& at, bool glossy, const Sa
   Sampler numbers = sampler.branch(Branch::whittedLamps);
   const Vec2 first = numbers.next2();
   const Real which = numbers.next();
+  const auto weigh = [&](Lamps::Place& place, bool) {
+    const Vec3& to = place.toLight;
+    const Scatter parts = scatter(at.bsdf(), at.frame, to, -at.ray.direction);
+    Color factor = (glossy ? parts.diffuse : parts.sum()) * ((1 - at.coat) / (kPi * place.density * rays));
+    const bool astray = !(dot(to, at.normal) < 0) && at.isAstray(to);
+    if (isBlack(factor) || astray) return LampWeight<ChanceTerm>{};
+    const Ray ray = at.leaveToLight(to);
+    factor *= lamps_.sent(tracer, ray, place);
+    if (tracer.settings().fog > 0) factor *= Color(Fog(tracer.settings()).left(ray, place.distance));
+    return LampWeight<ChanceTerm>{factor, {place.density, 0, 1, place.object}};
+  };
   for (int n = 0; n < rays; ++n) {
-    const Vec2 u = rotated(sobolPoint(static_cast<std::uint32_t>(n)), first);
-    auto place = lamps_.choose(at.lightPlace(), (n + which) / rays, u);
-    if (!place) continue;
-    const Scatter parts = scatter(at.bsdf(), at.frame, place->toLight, -at.ray.direction);
-    Color scattered =
-        (glossy ? parts.diffuse : parts.sum()) * ((1 - at.coat) / (kPi * place->density * rays));
-    const bool inward = dot(place->toLight, at.normal) < 0;
-    if (isBlack(scattered) || (!inward && at.isAstray(place->toLight))) continue;
-    const Ray toLamp = at.leaveToLight(place->toLight);
-    scattered *= lamps_.sent(tracer, toLamp, *place);
-    if (isBlack(scattered)) continue;
-    if (tracer.settings().fog > 0) scattered *= Color(Fog(tracer.settings()).left(toLamp, place->distance));
-    Color passed = tracer.visible(at.hit, toLamp, place->distance * Lamps::kBefore, at.inside);
-    if (!tracer.world().media().empty())
-      passed = throughBodies(tracer, passed, toLamp, place->distance,
-                             sampler.branch(Branch::whittedToLamp).branch(static_cast<std::uint32_t>(n)));
-    sum.add(Term::Kind::lamp, scattered, passed, {place->density, 0, 1, place->object});
+    const auto number = static_cast<std::uint32_t>(n);
+    askLamp<LampRay::filtered>(
+        sum, lamps_, PathPlace(at), {(n + which) / rays, rotated(sobolPoint(number), first)},
+        [] { return 0; }, [&] { return sampler.branch(Branch::whittedToLamp).branch(number); }, weigh);
   }
 }
 

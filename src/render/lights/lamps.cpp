@@ -38,7 +38,9 @@ bool Lamps::canSample(const World& world, std::uint32_t object) {
 }
 
 Lamps::Lamps(const World& world, int threads, bool onlyHere)
-    : sky_(world.outside(), threads, onlyHere), first_(world.objectCount(), kNone) {
+    : sky_(world.outside(), threads, onlyHere),
+      clear_(!world.hasHoles() && !world.hasShadowless() && !world.hasPanes()),
+      first_(world.objectCount(), kNone) {
   for (std::uint32_t object = 0; object < world.objectCount(); ++object) {
     const Color emissive = world.termsOf(object).emissive;
     const std::string_view shape = world.shapeOf(object);
@@ -111,7 +113,7 @@ LightReach Lamps::Part::reach(Real power) const {
 
 std::pair<std::size_t, Real> Lamps::chosenPart(const Vec3& from, Real which) const {
   if (tree_.empty()) {
-    const std::size_t part = partOf(which);
+    const std::size_t part = parts_.size() == 1 ? 0 : partOf(which);
     return {part, parts_[part].share};
   }
   const auto chosen = tree_.choose(from, nullptr, which);
@@ -169,12 +171,8 @@ Real Lamps::Part::density(const Vec3& from, const Vec3& at) const {
   return densityByArea(to, away2, std::sqrt(away2));
 }
 
-std::optional<SphericalRectangle> Lamps::Part::seen(const Vec3& from) const {
-  // Steradians. What is seen smaller is seen nearly alike from everywhere on it, at a third of the cost;
-  // below the least digits are lost.
-  constexpr Real kLarge = 0.3, kLeast = 1e-8;
-  const Vec3 to = origin + (edgeA + edgeB) * 0.5 - from;
-  if (kind != Kind::rectangle || size < kLarge * dot(to, to)) return {};
+std::optional<SphericalRectangle> Lamps::Part::seenLarge(const Vec3& from) const {
+  constexpr Real kLeast = 1e-8;  // steradians; below it digits are lost
   std::optional<SphericalRectangle> rectangle(std::in_place, from, origin, edgeA, edgeB);
   if (!(rectangle->solidAngle() > kLeast)) rectangle.reset();
   return rectangle;
@@ -288,9 +286,8 @@ Real Lamps::skyStartDensity(const Vec3& toLight) const {
 
 bool Lamps::isPlain(const Tracer& tracer, const Place& place, const Interfaces& inside) const {
   const World& world = tracer.world();
-  return place.object != kNone && world.isUniform(place.object) && !world.hasHoles() &&
-         !world.hasShadowless() && !world.hasPanes() && !inside.nested() && !(tracer.settings().fog > 0) &&
-         !tracer.records();
+  return clear_ && place.object != kNone && world.isUniform(place.object) && !inside.nested() &&
+         !(tracer.settings().fog > 0) && !tracer.records();
 }
 
 Color Lamps::look(Tracer& tracer, const Ray& ray, Place& place, const Interfaces& from, Real chance) const {

@@ -107,11 +107,17 @@ class Lamps {
     std::size_t body{};  ///< which of the bodies
     Vec3 normal = cross(edgeA, edgeB);
     Real normalLength = length(normal);
+    Vec3 middle = origin + (edgeA + edgeB) * 0.5;  ///< the middle of a parallelogram
     bool round() const { return kind == Kind::sphere || kind == Kind::body; }
     /// The density of the direction to `at`, which lies on the part, if the part is chosen; not of bodies.
     Real density(const Vec3& from, const Vec3& at) const;
     /// A rectangle as it is seen from there, where that differs from its area as seen from far away.
-    std::optional<SphericalRectangle> seen(const Vec3& from) const;
+    std::optional<SphericalRectangle> seen(const Vec3& from) const {
+      constexpr Real kLarge = 0.3;  // steradians; what is seen smaller is seen alike from everywhere on it
+      const Vec3 to = middle - from;
+      return kind != Kind::rectangle || size < kLarge * dot(to, to) ? std::nullopt : seenLarge(from);
+    }
+    std::optional<SphericalRectangle> seenLarge(const Vec3& from) const;
     /// Its density per area, for a way there of that length.
     Real densityByArea(const Vec3& to, Real away2, Real away) const {
       const Real facing = std::abs(dot(to, normal)) / (away * normalLength);
@@ -160,7 +166,8 @@ class Lamps {
   std::vector<BodyLamp> bodies_;
   LightTree tree_;  ///< over the parts, where they are many
   Real power_ = 0;
-  std::vector<Real> sums_;            ///< sums of the shares, up to and with each part
+  bool clear_ = false;      ///< nothing that a ray meets on its way lets a part of the light through
+  std::vector<Real> sums_;  ///< sums of the shares, up to and with each part
   std::vector<std::uint32_t> first_;  ///< first part of each object; kNone for no lamp
   static constexpr std::uint32_t kNone = Tracer::kSky;
 };

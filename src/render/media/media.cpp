@@ -339,7 +339,7 @@ Real shareOfBall(Tracer& tracer, const ScatterPlace& place, Real radius, Sampler
   Real sum = 0;
   for (std::uint32_t n = 0; n < kLooks; ++n) {
     const Vec2 u = rotated(sobolPoint(n), first);
-    const Ray ray{place.point, sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y)};
+    const Ray ray{place.point(), sphericalDirection(1 - 2 * u.x, 2 * kPi * u.y)};
     Real free = radius;
     world.crossings(ray, radius, Faces::both, tracer.statistics(), [&](const Found& found) {
       const bool leaves = ends && found.object == place.medium->object;
@@ -356,7 +356,7 @@ Real shareOfBall(Tracer& tracer, const ScatterPlace& place, Real radius, Sampler
 
 void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photons, const Sampler& numbers) {
   if (photons.empty()) return;
-  const PhotonMap::Near near = photons.around(place.point);
+  const PhotonMap::Near near = photons.around(place.point());
   Color light;
   for (std::size_t i = 0; i < near.count; ++i) {
     const Photon& photon = *near.photons[i];

@@ -71,11 +71,15 @@ Color passedByBodies(Tracer& tracer, const Ray& ray, Real distance, Sampler numb
 /// How light that is scattered at a point of the ray is asked for.
 struct ScatterPlace {
   const Ray& ray;
-  Vec3 point;
+  Vec3 place;
   Color share;  ///< share of that light in the sum
   Real forward;
   const Interfaces& inside;
   std::optional<MediumTerm> medium;  ///< none in fog alone
+
+  const Vec3& point() const { return place; }
+  Ray leave(const Vec3& direction) const { return {place, direction}; }
+  const Interfaces& side(const Vec3&) const { return inside; }
 };
 /// Adds the light of the photons around, of a place that a medium has.
 void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photons, const Sampler& numbers);
@@ -83,8 +87,7 @@ void addPhotonsAt(Gather& sum, const ScatterPlace& place, const PhotonMap& photo
 void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers);
 /// Adds the light of one place on emissive objects. `met`: a ray that is scattered there may hit them,
 /// too.
-void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lamps& lamps, bool met,
-               const Sampler& numbers);
+void addLampAt(Gather& sum, const ScatterPlace& place, const Lamps& lamps, bool met, const Sampler& numbers);
 
 /// Covers what has been summed with the media before it and adds the light that is scattered there once, of
 /// the lights and of what comes from everywhere: Whitted's equation.

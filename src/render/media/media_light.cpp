@@ -1,7 +1,7 @@
 // The light of lights and lamps that media and fog scatter to a ray.
 #include "math/elementary.h"
 #include "render/lights/light_choice.h"
-#include "render/media/media.h"
+#include "render/media/lamp_light.h"
 #include "render/rays/fog.h"
 
 namespace trace {
@@ -9,12 +9,11 @@ namespace trace {
 void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Sampler& numbers) {
   const World& world = tracer.world();
   const Fog fog(tracer.settings());
-  askLights(tracer, place.point, nullptr, numbers, [&](const AskedLight& asked) {
-    const Vec2 where = world.lightHasSize(asked.light) ? asked.numbers().next2() : kCenter;
-    const auto arriving = world.illuminate(asked.light, place.point, where);
+  askLights(tracer, place.place, nullptr, numbers, 1, [&](const AskedLight& asked) {
+    const auto arriving = world.illuminate(asked.light, place.place, asked.point);
     // From beyond all numbers nothing comes.
     if (!arriving || !(dot(arriving->toLight, arriving->toLight) > 0)) return;
-    const Ray toLight{place.point, arriving->toLight};
+    const Ray toLight{place.place, arriving->toLight};
     const Real left = fog.left(toLight, arriving->distance);
     // A light of colour 1 is one of irradiance pi.
     const Real scattered = phase(place.forward, dot(place.ray.direction, arriving->toLight));
@@ -23,29 +22,25 @@ void addLightsAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const S
     Color passed(1);
     if (world.lightCastsShadows(asked.light))
       passed = throughBodies(tracer,
-                             tracer.visible(place.point, arriving->toLight, arriving->distance, place.inside),
+                             tracer.visible(place.place, arriving->toLight, arriving->distance, place.inside),
                              toLight, arriving->distance, numbers.branch(Branch::lightMedia, asked.branch));
     sum.addScattered(asked.light, factor, passed, place.medium);
   });
 }
 
-void addLampAt(Gather& sum, Tracer& tracer, const ScatterPlace& place, const Lamps& lamps, bool met,
-               const Sampler& numbers) {
+void addLampAt(Gather& sum, const ScatterPlace& place, const Lamps& lamps, bool met, const Sampler& numbers) {
   if (lamps.empty()) return;
   Sampler chances = numbers.branch(Branch::scatteredLamp);
   const Real which = chances.next();
-  auto lamp = lamps.choose(place.point, which, chances.next2());
-  if (!lamp) return;
-  const Ray toLamp{place.point, lamp->toLight};
-  const Color seen = lamps.look(tracer, toLamp, *lamp, place.inside, tracer.chance(chances));
-  const bool shadowless = tracer.passedShadowless();
-  const Real scattered = phase(place.forward, dot(place.ray.direction, lamp->toLight));
-  Color factor = place.share * (scattered / lamp->density);
-  if (!place.medium) return sum.add(Term::Kind::fog, factor, seen);
-  if (!tracer.world().media().empty() && !isBlack(seen))
-    factor *= passedByBodies(tracer, toLamp, lamp->distance, numbers.branch(Branch::scatteredToLamp));
-  const ChanceTerm chance = weighed(lamp->density, met && !shadowless ? scattered : 0);
-  sum.add(factor * chance.share, seen, *place.medium, chance);
+  askLamp(
+      sum, lamps, place, {which, chances.next2()}, [&] { return chances.next(); },
+      [&] { return numbers.branch(Branch::scatteredToLamp); },
+      [&](const Lamps::Place& lamp, bool alone) {
+        const Real scattered = phase(place.forward, dot(place.ray.direction, lamp.toLight));
+        const ChanceTerm chance = weighed(lamp.density, met && !alone ? scattered : 0);
+        return LampWeight<ScatteredTerm>{place.share * (scattered / lamp.density),
+                                         {place.medium ? &*place.medium : nullptr, chance}};
+      });
 }
 
 void addMedia(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfaces& inside,
@@ -59,7 +54,7 @@ void addMedia(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interfa
     const ScatterPlace at{ray, ray.at(place.t), place.weight, place.forward, inside, term};
     const Sampler numbers = sampler.branch(number++);
     addLightsAt(sum, tracer, at, numbers);
-    if (lamps) addLampAt(sum, tracer, at, *lamps, false, numbers);
+    if (lamps) addLampAt(sum, at, *lamps, false, numbers);
   }
 }
 
@@ -86,7 +81,7 @@ void addFog(Gather& sum, Tracer& tracer, const Ray& ray, Real t, const Interface
     if (!isFinite(point)) continue;
     const ScatterPlace at{ray, point, share, fog.forward(), inside, {}};
     addLightsAt(sum, tracer, at, numbers);
-    if (lamps) addLampAt(sum, tracer, at, *lamps, false, numbers);
+    if (lamps) addLampAt(sum, at, *lamps, false, numbers);
   }
 }
 

@@ -103,37 +103,31 @@ void Interaction::addLights(Gather& sum, const Sampler& sampler) const {
   const Settings& settings = tracer.settings();
   const bool plainFog = settings.fogSamples == 0 && !hasTrait(settings, Trait::scattersInMedia);
   const bool foggy = settings.fog > 0 && !plainFog;
-  askLights(tracer, from, &normal, sampler, [&](const AskedLight& asked) {
+  const auto ask = [&](const AskedLight& asked) __attribute__((always_inline)) {
     const std::uint32_t i = asked.light;
-    if (!world.lights(i, hit.object)) return sum.noteDark(i, DarkTerm::Why::unlinked);
-    const auto light = [&](const Vec2& place, Real share, int n) __attribute__((always_inline)) {
-      auto arriving = world.illuminate(i, from, place);
-      if (!arriving) return n == 0 ? sum.noteDark(i, DarkTerm::Why::shinesElsewhere) : void();
-      if (foggy)
-        arriving->attenuation *= Fog(tracer.settings()).left({from, arriving->toLight}, arriving->distance);
-      Scatter parts = scatter(*bsdf_, frame, arriving->toLight, -ray.direction);
-      parts.diffuse *= Color(1 - coat);
-      const Color scattered = arriving->scattered(parts) * share;
-      Color passed(1);
-      if (!isBlack(scattered) && world.lightCastsShadows(i)) {
-        const Ray toward = leaveToLight(arriving->toLight);
-        passed = tracer.visible(hit, toward, arriving->distance, inside);
-        if (!world.media().empty())
-          passed = throughBodies(
-              tracer, passed, toward, arriving->distance,
-              asked.sampler.branch(Branch::lightMedia, asked.branch).branch(static_cast<std::uint32_t>(n)));
-      }
-      sum.addLight(i, *arriving, parts, scattered * material.shadow, passed, share, asked.probability);
-      if (material.shadow < 1)
-        sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1), share,
-                     asked.probability);
-    };
-    if (!world.lightHasSize(i)) return light(kCenter, asked.share, 0);
-    const int rays = tracer.settings().lightSamples;
-    const Vec2 first = asked.numbers().next2();
-    for (int n = 0; n < rays; ++n)
-      light(rotated(sobolPoint(static_cast<std::uint32_t>(n)), first), asked.share / rays, n);
-  });
+    const auto none = [&](DarkTerm::Why why) { asked.n == 0 ? sum.noteDark(i, why) : void(); };
+    if (!world.lights(i, hit.object)) return none(DarkTerm::Why::unlinked);
+    auto arriving = world.illuminate(i, from, asked.point);
+    if (!arriving) return none(DarkTerm::Why::shinesElsewhere);
+    if (foggy)
+      arriving->attenuation *= Fog(tracer.settings()).left({from, arriving->toLight}, arriving->distance);
+    Scatter parts = scatter(*bsdf_, frame, arriving->toLight, -ray.direction);
+    parts.diffuse *= Color(1 - coat);
+    const Color scattered = arriving->scattered(parts) * asked.share;
+    Color passed(1);
+    if (!isBlack(scattered) && world.lightCastsShadows(i)) {
+      const Ray toward = leaveToLight(arriving->toLight);
+      passed = tracer.visible(hit, toward, arriving->distance, inside);
+      if (!world.media().empty())
+        passed = throughBodies(tracer, passed, toward, arriving->distance,
+                               asked.sampler.branch(Branch::lightMedia, asked.branch).branch(asked.n));
+    }
+    sum.addLight(i, *arriving, parts, scattered * material.shadow, passed, asked.share, asked.probability);
+    if (material.shadow < 1)
+      sum.addLight(i, *arriving, parts, scattered * (1 - material.shadow), Color(1), asked.share,
+                   asked.probability);
+  };
+  askLights(tracer, from, &normal, sampler, settings.lightSamples, ask);
 }
 
 void Interaction::addOpen(Gather& sum, Term::Kind kind, const Color& factor, int rays,

@@ -57,6 +57,18 @@ class Interaction {
     return !raised_ && dot(direction, hit.surface.normal) * facing() < 0;
   }
 
+  // As a point that asks emitters (render/media/lamp_light.h); the light goes to where the ray comes from.
+  const Vec3& point() const { return lightPlace(); }
+  Ray leave(const Vec3& toLight) const { return leaveToLight(toLight); }
+  Interfaces side(const Vec3& toLight) const {
+    return transmits && dot(toLight, normal) < 0 ? behind() : inside;
+  }
+  Color scattered(const Vec3& toLight) const {
+    if (!(dot(toLight, normal) < 0) && isAstray(toLight)) return Color(0);
+    return evaluate(*bsdf_, frame, -ray.direction, toLight, Transport::importance) * (1 - coat);
+  }
+  Real density(const Vec3& toLight) const { return trace::density(*bsdf_, frame, -ray.direction, toLight); }
+
   /// Adds what arrives of the lights of the scene, by shadow rays, and is scattered to where the ray comes
   /// from: of all of them, or of Settings::lightChoices (render/lights/light_choice.h). Lights with a size
   /// are asked for Settings::lightSamples of their places.

@@ -53,6 +53,9 @@ class PathPlace {
   Interfaces side(const Vec3& direction) const {
     return at_ && dot(direction, at_->normal) < 0 && at_->transmits ? at_->behind() : *inside_;
   }
+  /// The transmittance of fog and of the medium on its side along that ray; visible() has that of nested
+  /// media.
+  Color clear(Tracer& tracer, const Ray& ray, Real distance) const;
   /// The transmittance along the ray that leaves it, up to that distance, of what is in the way and of bodies
   /// that media fill; fog is left out.
   Color visible(Tracer& tracer, const Ray& ray, Real distance, const Sampler& numbers) const;

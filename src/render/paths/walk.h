@@ -25,6 +25,10 @@ struct Leg {
   RayKind kind = RayKind::camera;
   Footprint footprint{};  ///< none where none is wanted
   Real ink = 0;           ///< how much of it an outline covers
+  Color weight{1};        ///< weight of its radiance in the sample
+  bool within = false;    ///< it runs in a body, from where light comes out
+  /// It was scattered, and has hit since then only panes that shadow rays pass: lights were asked.
+  bool asked = false;
 };
 
 /// A vertex of a path, until it is known what its rest brings.
@@ -67,9 +71,40 @@ class Turns : public InlineStack<Turn, 8> {
   }
 };
 
-/// The path continues with that ray, which `leg` becomes; `arrived` is its footprint at the turn, if there is
-/// one.
-void goOn(Leg& leg, Turn& turn, const Interaction& at, const Differentials* arrived, const Onward::Ray& next);
+/// The media that a leg runs through up to its end, and where they scatter it, if they do.
+struct LegMedia {
+  /// The media may scatter the leg in so many `places`, 0 or 1.
+  LegMedia(Tracer& tracer, const Leg& leg, Real end, int places) {
+    if (isThick(tracer) && !leg.within) cross(tracer, leg, end, places);
+  }
+  std::optional<MediumWay> way{};  ///< none where there are no media
+  std::optional<MediumWay::Place> place{};
+
+ private:
+  [[gnu::noinline]] void cross(Tracer& tracer, const Leg& leg, Real end, int places);
+};
+
+/// The turn of a path where media scatter it. `share` is the MIS weight of the light that they emit.
+Turn& pushScattered(Turns& turns, Tracer& tracer, int depth, const Leg& leg, const LegMedia& media,
+                    Real share = 1);
+/// The path continues with that ray in a random direction, whose light counts by `factor`.
+inline void bounce(Leg& leg, Turn& turn, const Ray& ray, const Color& factor, Real density) {
+  turn.factor = factor;
+  turn.weight = leg.weight = leg.weight * factor;
+  turn.density = density;
+  leg.asked = true;
+  leg.kind = RayKind::bounce;
+  leg.footprint = {};
+  leg.ink = 0;
+  leg.ray = ray;
+}
+/// The path continues from there with the chance `goes`; two numbers choose its direction.
+void goOn(Leg& leg, Turn& turn, const MediumWay::Place& place, Real goes, const Vec2& u);
+
+/// The path continues with that ray, which `leg` becomes and whose light counts by `factor`; `arrived` is its
+/// footprint at the turn, if there is one.
+void goOn(Leg& leg, Turn& turn, const Interaction& at, const Differentials* arrived, const Onward::Ray& next,
+          const Color& factor);
 
 /// The radiance along the first leg, whose ray was cast last and ends at `hit`. arrive(hit, turns) is called
 /// where a leg ends: it pushes a turn and makes `leg` the next, or gives the light of a path that ends there.
@@ -78,7 +113,7 @@ Color walk(Tracer& tracer, Leg& leg, const std::optional<Hit>& first, const Arri
   Turns turns;
   std::optional<Color> light = arrive(first, turns);
   while (!light) {
-    const Real chance = tracer.chance(leg.numbers.branch(Branch::hole));
+    const Real chance = tracer.world().hasHoles() ? leg.numbers.branch(Branch::hole).next() : 0;
     const std::optional<Hit> hit = tracer.cast(leg.ray, leg.kind, leg.inside, chance);
     leg.numbers = leg.numbers.branch(Branch::next);
     light = arrive(hit, turns);

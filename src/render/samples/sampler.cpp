@@ -53,6 +53,11 @@ Vec2 haltonPair(const Draw& d) { return haltonPoint(number(d.k), d.pixel); }
 Vec2 sobolPair(const Draw& d) { return sobolPoint(number(d.k), d.pixel); }
 Real sobolFirst(const Draw& d) { return sobolPair(d).x; }
 Vec2 sobolSecondPair(const Draw& d) { return sobolPointBeside(number(d.k), d.pixel); }
+Vec2 sobolBothPairs(const Draw& d, Vec2& second) {
+  const std::uint32_t k = sobolOrder(number(d.k), d.pixel);
+  second = sobolPointBesideInOrder(k, d.pixel);
+  return sobolPointInOrder(k, d.pixel);
+}
 
 /// Bits of v at the even places.
 constexpr std::uint32_t spread(std::uint32_t v) {
@@ -80,7 +85,7 @@ Vec2 bluePair(const Draw& d) {
 
 constexpr std::array kGenerators{
     GeneratorRow{SampleKind::grid, "grid", "camera rays on a regular grid in each pixel, all else by sobol",
-                 true, false, sobolPair, sobolFirst, sobolSecondPair},
+                 true, false, sobolPair, sobolFirst, sobolSecondPair, sobolBothPairs},
     GeneratorRow{SampleKind::random, "random", "independent of one another", false, true, randomPair},
     GeneratorRow{SampleKind::jittered, "jittered", "one at random in each cell of a grid", true, false,
                  jitteredPair},
@@ -89,7 +94,7 @@ constexpr std::array kGenerators{
     GeneratorRow{SampleKind::halton, "halton", "Halton's sequence in bases 2 and 3, scrambled", false, true,
                  haltonPair},
     GeneratorRow{SampleKind::sobol, "sobol", "Sobol's sequence, scrambled as Owen does", false, true,
-                 sobolPair, sobolFirst, sobolSecondPair},
+                 sobolPair, sobolFirst, sobolSecondPair, sobolBothPairs},
     GeneratorRow{SampleKind::blue, "blue", "sobol, with neighbouring pixels unlike each other: finer noise",
                  false, false, bluePair},
 };

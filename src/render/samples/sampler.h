@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "image/film/pixel_filter.h"
 #include "math/noise.h"
@@ -46,6 +47,8 @@ struct GeneratorRow {
   Real (*first)(const Draw& draw) = nullptr;
   /// Two more that with the pair fill four dimensions evenly; null: they have nothing to do with it.
   Vec2 (*second)(const Draw& draw) = nullptr;
+  /// The pair and the second one, where both together take less; else null.
+  Vec2 (*both)(const Draw& draw, Vec2& second) = nullptr;
 };
 std::span<const GeneratorRow> generators();
 const GeneratorRow& generatorOf(const Settings& settings);
@@ -170,6 +173,13 @@ class Sampler {
     const GeneratorRow& row = rules_->generator();
     if (numbers_) return numbers_->pair(draw.beside().branch);
     return row.second ? row.second(draw) : row.pair(draw.beside());
+  }
+
+  /// next2(), and second2() where that takes less together.
+  Vec2 next2(std::optional<Vec2>& second) {
+    const GeneratorRow& row = rules_->generator();
+    if (numbers_ || !row.both || dimension_ > 0) return next2();
+    return row.both(nextDraw(), second.emplace());
   }
 
   /// Numbers of its own for the n-th ray that is sent from here, whatever has been drawn here and elsewhere:

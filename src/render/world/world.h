@@ -145,6 +145,12 @@ class World {
   PlaceBsdf shade(const Hit& hit, const Differentials* arrived = nullptr) const {
     return shade(hit.object, hit.part, hit.materials, hit.surface, arrived);
   }
+  /// The Bsdf of a hit on one material without textures; null for others.
+  const Bsdf* plainBsdf(const Hit& hit) const {
+    const std::uint32_t only = hit.materials.material[0];
+    if (hit.materials.count != 1 || only == MaterialMix::kClear || surfaces_[only].textured) return nullptr;
+    return &surfaces_[only].bsdf;
+  }
   /// The place on a mesh moved outward to where the planes lie that touch the smooth surface at the corners
   /// of its triangle, by the weights of the corners (Hanika, Hacking the Shadow Terminator, Ray Tracing Gems
   /// II, 2021, chapter 4, listing 4-1). `turned`: outward is where the normals do not point. Nothing where
