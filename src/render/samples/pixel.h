@@ -196,7 +196,7 @@ class PixelTracer {
     const bool weighs = moments_[now_].integrator->weighsHoles();
     const Real chance = weighs || !world.hasHoles() ? 0 : sampler.branch(Branch::cameraHole).next();
     CameraRay camera(ray, tracer.interfacesAt(ray.origin), [&](Interfaces& inside) {
-      return tracer.cast(ray, RayKind::camera, inside, chance, {}, first);
+      return tracer.cast(aimed.ray, RayKind::camera, inside, chance, {}, first);
     });
     camera.weight = drawn.weight;
     camera.differentials = differentials.get();
