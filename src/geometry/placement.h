@@ -49,9 +49,12 @@ class Placement {
     const Affine size = absolute(outFromIn_);
     out.error = (product(size, in.error) + (product(rounding_, abs(in.point)) + rounding_.offset)) *
                 (1 + gammaError(24));
+    // By components: a copy of numbers that were just written would wait for memory.
     const Vec3 normal = normalize(turned(in.normal));
+    Vec3 shading{normal.x, normal.y, normal.z};
+    if (!(in.shading == in.normal)) shading = normalize(turned(in.shading));
     out.normal = normal;
-    out.shading = in.shading == in.normal ? normal : normalize(turned(in.shading));
+    out.shading = shading;
     out.uv = in.uv;
     return out;
   }

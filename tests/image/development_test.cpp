@@ -115,5 +115,17 @@ TEST(Development, AWorkingGammaMakesLightOfTheValues) {
   EXPECT_EQ(all.at(0, 0).b, 0);
 }
 
+TEST(Development, LevelsAreThoseOfTheDevelopedPicture) {
+  Picture picture = ramp(7);
+  picture.pixels.front() = Color(3, -1, 0.2);
+  for (const Development& d :
+       {Development{}, Development{.exposure = 1, .whiteBalance = 3200, .transfer = Transfer::srgb},
+        Development{.tone = Tone::agx, .workingGamma = 2.2},
+        Development{.exposure = -1, .tone = Tone::stretch}, Development{.bloom = 0.2},
+        Development{.dither = true}})
+    for (const Rounding rounding : {Rounding::truncate, Rounding::nearest})
+      EXPECT_EQ(developedBytes(picture, d, rounding), toBytes(developed(picture, d), rounding));
+}
+
 }  // namespace
 }  // namespace trace

@@ -109,6 +109,20 @@ TEST(Film, SamplesThatAreNotFiniteDoNotCount) {
   EXPECT_EQ(film.picture().at(0, 0), Color(2));
 }
 
+TEST(Film, PixelsBesideOneOfOtherWeightsKeepTheirMeans) {
+  Film film(2, 1, 2);
+  film.add(0, 0, uniform(film, 0, 0, Color(1)));
+  TileSamples next = uniform(film, 0, 1, Color(4));
+  next.weights = {-0.5, 1};
+  film.add(0, 1, next);
+  EXPECT_EQ(film.picture().at(0, 0), Color(-2));  // (1 - 4 / 2) / (1 - 1 / 2)
+  EXPECT_EQ(film.picture().at(1, 0), Color(2.5));
+  Film again(2, 1, 2);
+  again.restore(film.saved());
+  EXPECT_EQ(again.picture(), film.picture());
+  EXPECT_EQ(again.saved(), film.saved());
+}
+
 TEST(Film, KeepsNoLayersUnasked) { EXPECT_EQ(Film(4, 4).layers(), 0u); }
 
 TEST(Film, GoesOnWithTheSameBitsFromWhatWasSaved) {
@@ -231,8 +245,8 @@ TEST(Film, SplatsMayBeVeryBrightOrVeryDark) {
   }
 }
 
-TEST(PixelSum, IsSmallAsLongAsNoWeightIsBelowZero) {
-  EXPECT_LE(sizeof(PixelSum), 56u);
+TEST(PixelSum, LeavesOutWeightsBelowZeroThatNearlyUndoTheOthers) {
+  EXPECT_LE(Film::bytesPerPixel(0), 32u);
   PixelSum sum;
   sum.add(Color(0.5), 1), sum.add(Color(1), -0.25);
   const PixelSum copy = sum;

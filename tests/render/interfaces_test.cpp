@@ -178,8 +178,8 @@ Traced traced(const Scene& scene, const Ray& ray, const Settings& settings) {
   const World world = build(scene, settings);
   Traced result;
   Tracer tracer(world, settings, &result.tree);
-  CameraRay camera{ray, {}, tracer.interfacesAt(ray.origin)};
-  camera.hit = tracer.cast(ray, RayKind::camera, camera.inside);
+  const CameraRay camera(ray, tracer.interfacesAt(ray.origin),
+                         [&](Interfaces& inside) { return tracer.cast(ray, RayKind::camera, inside); });
   const SampleRules rules(settings, {1, 1});
   result.radiance = Whitted().radiance(tracer, Sampler(rules, 0, 0, 0), camera);
   EXPECT_TRUE(sumsUp(result.tree));

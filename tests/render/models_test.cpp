@@ -49,8 +49,8 @@ Color mean(const Scene& scene, const Ray& ray, Settings settings, int samples = 
   const SampleRules rules(settings, {1, 1});
   Color sum;
   for (int k = 0; k < samples; ++k) {
-    CameraRay camera{ray, {}, tracer.interfacesAt(ray.origin)};
-    camera.hit = tracer.cast(ray, RayKind::camera, camera.inside);
+    const CameraRay camera(ray, tracer.interfacesAt(ray.origin),
+                           [&](Interfaces& inside) { return tracer.cast(ray, RayKind::camera, inside); });
     sum += Whitted().radiance(tracer, Sampler(rules, 0, 0, k), camera);
   }
   return sum / samples;

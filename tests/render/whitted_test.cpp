@@ -20,8 +20,8 @@ Color trace(const Scene& scene, const Ray& ray, const Settings& settings = {},
             Statistics* statistics = nullptr) {
   const World world = build(scene, settings);
   Tracer tracer(world, settings);
-  CameraRay camera{ray, {}, tracer.interfacesAt(ray.origin)};
-  camera.hit = tracer.cast(ray, RayKind::camera, camera.inside);
+  const CameraRay camera(ray, tracer.interfacesAt(ray.origin),
+                         [&](Interfaces& inside) { return tracer.cast(ray, RayKind::camera, inside); });
   const SampleRules rules(settings, {1, 1});
   const Color color = Whitted().radiance(tracer, Sampler(rules, 0, 0, 0), camera);
   if (statistics) *statistics = tracer.statistics();

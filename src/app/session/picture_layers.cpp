@@ -147,15 +147,15 @@ std::string encodedPng(const Picture& picture, const FinishedFilm& f, const Meta
 std::string encoded(const Output& output, const FinishedFilm& f, const Metadata& words) {
   const PictureFormat& format = pictureFormatFor(output.path);
   const Settings& settings = f.settings;
-  const Encoding encoding(settings.rounding, settings.jpegQuality);
+  Encoding encoding(settings.rounding, settings.jpegQuality);
   if (output.pass.empty()) {
-    const Picture picture = finished(f.shown, settings);
+    const Picture combined = isAnaglyph(settings.stereo) ? finished(f.shown, settings) : Picture();
+    const Picture& picture = isAnaglyph(settings.stereo) ? combined : f.shown;
     if (&format == exrFormat()) return encodedExr(picture, f, words);
     if (&format == pngFormat() && settings.alpha && !isAnaglyph(settings.stereo))
       return encodedPng(picture, f, words);
-    const Development development = developmentOf(settings);
-    const bool asItIs = format.keepsBright || development == Development{};
-    return encodePicture(format, asItIs ? picture : developed(picture, development), encoding, words);
+    if (!format.keepsBright) encoding.development = developmentOf(settings);
+    return encodePicture(format, picture, encoding, words);
   }
   const auto passes = passesOf(settings);
   const auto pass = std::find_if(passes.begin(), passes.end(),

@@ -48,7 +48,9 @@ std::uint64_t bytesPerPixel(const Settings& settings, const PassNames& names) {
   const std::size_t layers = ofPasses + 2 * (all - ofPasses);  // Keep::weighted has two pictures
   const std::uint64_t corners = subdivides(settings) ? 2 * ((layers + 1) * sizeof(Color) + 16) : 0;
   const std::uint64_t planes = settings.denoise ? denoisingBytesPerPixel() : 0;
-  return Film::bytesPerPixel(layers, settings.denoise) + splats + corners + planes + 2 * sizeof(Color) + 16;
+  const bool stops = settings.noiseTarget > 0;
+  return Film::bytesPerPixel(layers, settings.denoise, stops) + splats + corners + planes +
+         2 * sizeof(Color) + 16;
 }
 
 /// The bytes of the photons that stay until the picture is made, if each comes to rest once.

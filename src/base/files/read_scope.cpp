@@ -10,7 +10,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-thread_local std::shared_ptr<const ReadRules> rulesOfThread;
+using Rules = std::shared_ptr<const ReadRules>;
+
+/// The rules, on the heap; null for none. No object with a destructor: glibc registers that when a thread
+/// first looks at it, and ends the process where there is no memory for it.
+constinit thread_local Rules* cellOfThread = nullptr;
+
+const ReadRules* rulesOfThread() { return cellOfThread ? cellOfThread->get() : nullptr; }
+
+void setRules(Rules rules) {
+  if (!rules) {
+    delete std::exchange(cellOfThread, nullptr);
+  } else if (cellOfThread) {
+    *cellOfThread = std::move(rules);
+  } else {
+    cellOfThread = new Rules(std::move(rules));
+  }
+}
 
 /// Absolute and without links; what does not exist is kept as it is named. "" if it cannot be told.
 std::string realPath(const fs::path& path) {
@@ -39,7 +55,7 @@ void addReal(std::vector<std::string>& to, const std::vector<std::string>& paths
     if (std::string real = realPath(path); !real.empty()) to.push_back(std::move(real));
 }
 
-ReadRules copyOfCurrent() { return rulesOfThread ? *rulesOfThread : ReadRules{}; }
+ReadRules copyOfCurrent() { return rulesOfThread() ? *rulesOfThread() : ReadRules{}; }
 
 }  // namespace
 
@@ -50,15 +66,15 @@ void ReadDenied::at(const SourcePlace& place) const {
 }
 
 ReadScope::ReadScope(const std::vector<std::string>& allowed, const std::vector<std::string>& denied)
-    : before_(rulesOfThread) {
+    : before_(current()) {
   ReadRules rules = copyOfCurrent();
   addReal(rules.allowed, allowed);
   addReal(rules.denied, denied);
-  rulesOfThread = std::make_shared<const ReadRules>(std::move(rules));
+  setRules(std::make_shared<const ReadRules>(std::move(rules)));
 }
 
-ReadScope::ReadScope(std::shared_ptr<const ReadRules> rules) : before_(rulesOfThread) {
-  rulesOfThread = std::move(rules);
+ReadScope::ReadScope(std::shared_ptr<const ReadRules> rules) : before_(current()) {
+  setRules(std::move(rules));
 }
 
 ReadScope ReadScope::ofScene(const std::string& file) {
@@ -68,9 +84,9 @@ ReadScope ReadScope::ofScene(const std::string& file) {
   return ReadScope(std::make_shared<const ReadRules>(std::move(rules)));
 }
 
-ReadScope::~ReadScope() { rulesOfThread = before_; }
+ReadScope::~ReadScope() { setRules(before_); }
 
-std::shared_ptr<const ReadRules> ReadScope::current() { return rulesOfThread; }
+std::shared_ptr<const ReadRules> ReadScope::current() { return cellOfThread ? *cellOfThread : nullptr; }
 
 std::string shellWord(const std::string& text) {
   const bool plain = text.find_first_of(" \t\"'\\$&;()<>|*?`!#~") == text.npos;
@@ -78,8 +94,8 @@ std::string shellWord(const std::string& text) {
 }
 
 bool mayRead(const std::string& path) {
-  if (!rulesOfThread) return true;
-  const ReadRules& rules = *rulesOfThread;
+  if (!rulesOfThread()) return true;
+  const ReadRules& rules = *rulesOfThread();
   const std::string real = realPath(path);
   if (real.empty() || isBelowOne(real, rules.denied)) return false;
   return rules.root.empty() || isBelow(real, rules.root) || isBelowOne(real, rules.allowed);
@@ -88,7 +104,7 @@ bool mayRead(const std::string& path) {
 void checkMayRead(const std::string& path) {
   if (mayRead(path)) return;
   const std::string real = realPath(path);
-  if (real.empty() || isBelowOne(real, rulesOfThread->denied))
+  if (real.empty() || isBelowOne(real, rulesOfThread()->denied))
     throw ReadDenied(Fault::scene, "\"" + path + "\" may not be read by a scene");
   fs::path folder = fs::path(path).parent_path().lexically_normal();
   if (folder.empty()) folder = ".";

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "accel/bvh.h"
@@ -25,26 +26,36 @@ class LineTree {
         reach_.extend(boxes[i]);
       }
     }
+    if (!reach_.empty()) reach_ = roomy(reach_);
     bvh_ = Bvh(boxes);
   }
 
-  /// Calls visit(number) for each box that the line of the ray may hit.
+  /// Calls visit(number) for each box that the line of the ray may hit; ends where it returns true, if it
+  /// returns anything.
   template <class Visit>
   void query(const Ray& ray, Visit&& visit) const {
-    for (const Alone& part : alone_) {
-      checkBudget();
-      if (!spanIn(part.box, ray).empty()) visit(part.number);
+    const auto ends = [&](std::uint32_t number) {
+      if constexpr (std::is_void_v<decltype(visit(number))>)
+        return visit(number), false;
+      else
+        return visit(number);
+    };
+    if (!alone_.empty()) {
+      const LineProbe line(ray);
+      for (const Alone& part : alone_) {
+        checkBudget();
+        if (line.meets(part.box) && ends(part.number)) return;
+      }
     }
     if (reach_.empty()) return;
-    const Span span = spanIn(roomy(reach_), ray);
+    const Span span = spanIn(reach_, ray);
     if (span.empty()) return;
     // The hierarchy looks ahead only: it is asked from a place before everything.
     const Real back = span.from - 0.5 * (span.to - span.from);
     NodeCount visited;
     bvh_.query(ray.at(back), ray.direction, kInfinity, false, visited, [&](std::uint32_t number) {
       checkBudget();
-      visit(number);
-      return false;
+      return ends(number);
     });
   }
 
@@ -54,7 +65,7 @@ class LineTree {
     std::uint32_t number;
   };
   std::vector<Alone> alone_;  ///< tested one by one
-  Box3 reach_;                ///< reach of all others
+  Box3 reach_;                ///< reach of all others, with room left
   Bvh bvh_;
 };
 

@@ -53,6 +53,34 @@ inline Span spanIn(const Box3& box, const Ray& ray) {
   return {in.t, out.t};
 }
 
+/// The line of a ray, to be held against many boxes: it is divided by the direction once.
+class LineProbe {
+ public:
+  explicit LineProbe(const Ray& ray)
+      : origin_(ray.origin),
+        direction_(ray.direction),
+        inverse_{1 / ray.direction.x, 1 / ray.direction.y, 1 / ray.direction.z} {}
+
+  /// Whether the line runs through the box, up to rounding.
+  bool meets(const Box3& box) const {
+    Span span;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Real o = origin_[axis];
+      if (direction_[axis] == 0) {
+        if (o < box.low[axis] || o > box.high[axis]) return false;
+        continue;
+      }
+      const Real low = (box.low[axis] - o) * inverse_[axis], high = (box.high[axis] - o) * inverse_[axis];
+      span.from = max(span.from, min(low, high));
+      span.to = min(span.to, max(low, high));
+    }
+    return !span.empty();
+  }
+
+ private:
+  Vec3 origin_, direction_, inverse_;
+};
+
 /// Where f, convex along the line, is negative: visits entry and exit with numbers 0 and 1, as far as they
 /// are in the range. f is not negative at the ends of the span. Newton's steps from outside never pass a root
 /// of a convex function.

@@ -71,17 +71,21 @@ bool isTga(std::string_view b) {
 
 // --- the rows ----------------------------------------------------------------------------------------
 
+Bytes levels(const Picture& picture, const Encoding& how) {
+  return developedBytes(picture, how.development, how.rounding);
+}
+
 std::string encodePng(const Picture& picture, const Encoding& how, const Metadata& metadata) {
-  return withPngText(encodePngRows(toBytes(picture, how.rounding)), metadata);
+  return withPngText(encodePngRows(levels(picture, how)), metadata);
 }
 std::string encodeBmp(const Picture& picture, const Encoding& how, const Metadata&) {
-  return encodeBmpByStb(toBytes(picture, how.rounding));
+  return encodeBmpByStb(levels(picture, how));
 }
 std::string encodeTga(const Picture& picture, const Encoding& how, const Metadata&) {
-  return encodeTgaByStb(toBytes(picture, how.rounding));
+  return encodeTgaByStb(levels(picture, how));
 }
 std::string encodeJpeg(const Picture& picture, const Encoding& how, const Metadata& metadata) {
-  return withJpegComments(encodeJpegByStb(toBytes(picture, how.rounding), how.jpegQuality), metadata);
+  return withJpegComments(encodeJpegByStb(levels(picture, how), how.jpegQuality), metadata);
 }
 Raster decodePng(std::string_view bytes, const PictureLimits& limits) {
   checkPngChunks(bytes);

@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "image/codecs/metadata.h"
-#include "image/development/tone.h"
+#include "image/development/development.h"
 #include "image/picture.h"
 #include "image/raster.h"
 
@@ -22,8 +22,9 @@ namespace trace {
 struct Encoding {
   static constexpr int kJpegQuality = 95;  ///< from 91 on the colours of every pixel are kept
 
-  Rounding rounding;  ///< rounding of 8-bit formats
-  int jpegQuality;    ///< 1 to 100
+  Rounding rounding;          ///< rounding of 8-bit formats
+  int jpegQuality;            ///< 1 to 100
+  Development development{};  ///< what happens first to the colours, in those formats
   Encoding(Rounding r = Rounding::truncate, int quality = kJpegQuality) : rounding(r), jpegQuality(quality) {}
 };
 

@@ -185,7 +185,7 @@ std::string encodePpm(const Picture& picture, const Encoding& how, const Metadat
   const std::string header =
       "P6\n" + std::to_string(picture.width) + " " + std::to_string(picture.height) + "\n255\n";
   std::string file = withCommentLines(header, metadata);
-  const Bytes bytes = toBytes(picture, how.rounding);
+  const Bytes bytes = developedBytes(picture, how.development, how.rounding);
   file.append(reinterpret_cast<const char*>(bytes.rgb.data()), bytes.rgb.size());
   return file;
 }

@@ -5,6 +5,7 @@
 // whose bytes, as signed numbers, are the smallest in sum (section 12.8). Packed by zlib.
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdlib>
@@ -57,40 +58,67 @@ class Deflater {
   std::string packed_;
 };
 
+/// Bytes and their sums; so short that vectors hold many.
+using Short = std::int16_t;
+
+Short distance(Short a, Short b) { return static_cast<Short>(a < b ? b - a : a - b); }
+
 /// Predicts from the bytes to the left, above, and above the left one: the one nearest to left + above -
 /// corner.
-int paeth(int left, int above, int corner) {
-  const int toLeft = std::abs(above - corner), toAbove = std::abs(left - corner),
-            toCorner = std::abs(left + above - 2 * corner);
-  if (toLeft <= toAbove && toLeft <= toCorner) return left;
-  return toAbove <= toCorner ? above : corner;
+Short paeth(Short left, Short above, Short corner) {
+  const Short toLeft = distance(above, corner), toAbove = distance(left, corner),
+              toCorner = distance(static_cast<Short>(left + above), static_cast<Short>(2 * corner));
+  const Short other = toAbove <= toCorner ? above : corner;
+  return toLeft <= std::min(toAbove, toCorner) ? left : other;
 }
 
+/// A row behind as many zeros as a pixel has bytes, so that its first pixel has a left neighbour like others:
+/// the loops over it have no conditions, and compilers make vectors of them.
+class PaddedRow {
+ public:
+  PaddedRow(std::size_t step, std::size_t length) : step_(step), bytes_(step + length) {}
+  void set(const unsigned char* row) { std::copy_n(row, bytes_.size() - step_, bytes_.data() + step_); }
+  const unsigned char* here() const { return bytes_.data() + step_; }
+  const unsigned char* left() const { return bytes_.data(); }
+
+ private:
+  std::size_t step_;
+  Row bytes_;
+};
+
 /// Filters a row by the filter of that number, behind the number; `before` is the row above.
-void filter(int number, const unsigned char* row, const unsigned char* before, std::size_t step,
-            Row& result) {
+void filter(int number, const PaddedRow& row, const PaddedRow& before, Row& result) {
   result[0] = static_cast<unsigned char>(number);
   const std::size_t length = result.size() - 1;
   const auto each = [&](auto guess) {
-    for (std::size_t i = 0; i < length; ++i) {
-      const int left = i >= step ? row[i - step] : 0, corner = i >= step ? before[i - step] : 0;
-      result[i + 1] = static_cast<unsigned char>(row[i] - guess(left, int{before[i]}, corner));
-    }
+    const unsigned char *here = row.here(), *left = row.left(), *above = before.here(),
+                        *corner = before.left();
+    unsigned char* to = result.data() + 1;
+    for (std::size_t i = 0; i < length; ++i)
+      to[i] = static_cast<unsigned char>(here[i] - guess(Short{left[i]}, Short{above[i]}, Short{corner[i]}));
   };
   switch (number) {
-    case 0: return each([](int, int, int) { return 0; });
-    case 1: return each([](int left, int, int) { return left; });
-    case 2: return each([](int, int above, int) { return above; });
-    case 3: return each([](int left, int above, int) { return (left + above) / 2; });
+    case 0: return each([](Short, Short, Short) { return Short{0}; });
+    case 1: return each([](Short left, Short, Short) { return left; });
+    case 2: return each([](Short, Short above, Short) { return above; });
+    case 3:
+      return each([](Short left, Short above, Short) { return static_cast<Short>((left + above) / 2); });
     default: return each(paeth);
   }
 }
 
-std::int64_t sumOf(const Row& filtered) {
-  std::int64_t sum = 0;
-  for (std::size_t i = 1; i < filtered.size(); ++i)
-    sum += std::abs(static_cast<int>(static_cast<signed char>(filtered[i])));
-  return sum;
+/// The sum of the bytes' sizes, as signed numbers.
+std::uint64_t sumOf(const Row& filtered) {
+  constexpr std::size_t kTogether = 1 << 16;  // whose sum is small
+  std::uint64_t all = 0;
+  for (std::size_t first = 1; first < filtered.size(); first += kTogether) {
+    const std::size_t end = std::min(filtered.size(), first + kTogether);
+    std::uint32_t sum = 0;
+    for (std::size_t i = first; i < end; ++i)
+      sum += static_cast<std::uint32_t>(std::abs(static_cast<int>(static_cast<signed char>(filtered[i]))));
+    all += sum;
+  }
+  return all;
 }
 
 std::string bigEndian32(int number) {
@@ -103,16 +131,17 @@ std::string encoded(const unsigned char* levels, int width, int height, int chan
   constexpr int kFilters = 5;
   constexpr std::array<char, 5> kColorTypes{0, 0, 4, 2, 6};
   const auto step = static_cast<std::size_t>(channels), length = static_cast<std::size_t>(width) * step;
-  const Row zeros(length);
+  PaddedRow here(step, length), before(step, length);
   Row tried(length + 1), best(length + 1);
   Deflater packed;
   for (int y = 0; y < height; ++y) {
     lookAtBudget();
-    const unsigned char* row = levels + static_cast<std::size_t>(y) * length;
-    std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    std::swap(here, before);
+    here.set(levels + static_cast<std::size_t>(y) * length);
+    auto least = std::numeric_limits<std::uint64_t>::max();
     for (int number = 0; number < kFilters; ++number) {
-      filter(number, row, y > 0 ? row - length : zeros.data(), step, tried);
-      const std::int64_t size = sumOf(tried);
+      filter(number, here, before, tried);
+      const std::uint64_t size = sumOf(tried);
       if (size < least) least = size, std::swap(best, tried);
     }
     packed.add(best);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -111,6 +112,28 @@ Color lightOf(const Color& c, double workingGamma) {
   return workingGamma == 1 ? c : Color{power(c.r), power(c.g), power(c.b)};
 }
 
+/// The steps that each colour takes by itself.
+class ColorSteps {
+ public:
+  explicit ColorSteps(const Development& d) : d_(d), scale_(math::exp2(d.exposure)) {
+    if (d.whiteBalance > 0) balance_ = whiteBalance(d.whiteBalance);
+  }
+  Color operator()(const Color& c) const { return toScreen(toned(c)); }
+  /// Up to the tone, except for Tone::stretch.
+  Color toned(Color c) const {
+    if (d_.exposure != 0) c = c * scale_;
+    if (balance_) c = (*balance_)(c);
+    return curved(c, d_.tone);
+  }
+  /// After it.
+  Color toScreen(const Color& c) const { return transferred(lightOf(c, d_.workingGamma), d_.transfer); }
+
+ private:
+  const Development& d_;
+  double scale_;
+  std::optional<WhiteBalance> balance_;
+};
+
 /// Noise of one level, a triangle from -1 to 1: the mean of many pixels is the value itself.
 void dither(Picture& picture) {
   for (std::size_t i = 0; i < picture.pixels.size(); ++i) {
@@ -142,11 +165,7 @@ WhiteBalance whiteBalance(double kelvin) {
   return {row(0), row(1), row(2)};
 }
 
-Color developed(Color color, const Development& d) {
-  if (d.exposure != 0) color = color * math::exp2(d.exposure);
-  if (d.whiteBalance > 0) color = whiteBalance(d.whiteBalance)(color);
-  return transferred(lightOf(curved(color, d.tone), d.workingGamma), d.transfer);
-}
+Color developed(Color color, const Development& d) { return ColorSteps(d)(color); }
 
 Picture developed(Picture picture, const Development& d) {
   const auto each = [&](auto change) {
@@ -159,15 +178,22 @@ Picture developed(Picture picture, const Development& d) {
     const Work work("adding bloom");
     picture = bloomed(picture, d.bloom);
   }
-  const double scale = math::exp2(d.exposure);
-  if (d.exposure != 0) each([&](const Color& c) { return c * scale; });
-  if (d.whiteBalance > 0) each(whiteBalance(d.whiteBalance));
-  each([&](const Color& c) { return curved(c, d.tone); });
-  picture = toned(std::move(picture), d.tone);
-  if (d.workingGamma != 1) each([&](const Color& c) { return lightOf(c, d.workingGamma); });
-  if (d.transfer != Transfer::linear) each([&](const Color& c) { return transferred(c, d.transfer); });
+  const ColorSteps steps(d);
+  if (d.tone == Tone::stretch) {
+    each([&](const Color& c) { return steps.toned(c); });
+    picture = toned(std::move(picture), d.tone);
+    each([&](const Color& c) { return steps.toScreen(c); });
+  } else {
+    each(steps);
+  }
   if (d.dither) dither(picture);
   return picture;
+}
+
+Bytes developedBytes(const Picture& picture, const Development& d, Rounding rounding) {
+  if (d == Development{}) return toBytes(picture, rounding);
+  if (d.bloom > 0 || d.dither || d.tone == Tone::stretch) return toBytes(developed(picture, d), rounding);
+  return toBytes(picture, rounding, ColorSteps(d));
 }
 
 }  // namespace trace

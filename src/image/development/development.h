@@ -31,6 +31,9 @@ struct Development {
 /// The picture whose levels are to be taken.
 Picture developed(Picture picture, const Development& development);
 
+/// The levels of the developed picture, without a copy of it where each colour is developed by itself.
+Bytes developedBytes(const Picture& picture, const Development& development, Rounding rounding);
+
 /// One colour through all but bloom, dither and Tone::stretch, which need the picture.
 Color developed(Color color, const Development& development);
 

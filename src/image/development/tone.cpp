@@ -50,14 +50,7 @@ std::uint8_t toLevel(double c, Rounding rounding) {
 }
 
 Bytes toBytes(const Picture& picture, Rounding rounding) {
-  Bytes bytes{picture.width, picture.height, {}};
-  bytes.rgb.resize(3 * picture.pixels.size());
-  std::uint8_t* level = bytes.rgb.data();
-  for (const Color& c : picture.pixels) {
-    checkBudget();
-    for (double channel : {c.r, c.g, c.b}) *level++ = toLevel(channel, rounding);
-  }
-  return bytes;
+  return toBytes(picture, rounding, [](const Color& c) { return c; });
 }
 
 Picture fromBytes(const Bytes& bytes) {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/budget.h"
 #include "image/picture.h"
 
 namespace trace {
@@ -40,6 +41,19 @@ Picture toned(Picture picture, Tone tone);
 /// The level of one channel: c clamped to [0,1], times 255, rounded. NaN gives 0.
 std::uint8_t toLevel(double c, Rounding rounding);
 
+/// The levels of a whole picture whose colours are changed first.
+template <class Change>
+Bytes toBytes(const Picture& picture, Rounding rounding, const Change& change) {
+  Bytes bytes{picture.width, picture.height, {}};
+  bytes.rgb.resize(3 * picture.pixels.size());
+  std::uint8_t* level = bytes.rgb.data();
+  for (const Color& before : picture.pixels) {
+    checkBudget();
+    const Color c = change(before);
+    for (const double channel : {c.r, c.g, c.b}) *level++ = toLevel(channel, rounding);
+  }
+  return bytes;
+}
 /// The levels of a whole picture. Never fails.
 Bytes toBytes(const Picture& picture, Rounding rounding);
 

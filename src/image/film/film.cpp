@@ -9,9 +9,21 @@
 
 namespace trace {
 
+void PixelSum::add(const Color& color, double weight) {
+  const double n = taken_++, before = luminanceOf(mean());
+  double light = 0;
+  if (isFinite(color)) {
+    colors_.add(color, weight);
+    light = luminanceOf(color);
+  }
+  if (n == 0) return;  // one sample is not spread
+  const double after = luminanceOf(mean());
+  spread_ += static_cast<float>((light - after) * (light + after) + n * (before - after) * (before + after));
+}
+
 double PixelSum::variance() const {
-  const double n = taken_, mean = luminanceOf(colors_.mean());
-  return std::max(0.0, squares_ / n - mean * mean) * n / std::max(1.0, n - 1) / n;
+  const double n = taken_;
+  return std::max(0.0, double{spread_}) / std::max(1.0, n - 1) / n;
 }
 
 double PixelSum::error(double white) const {
@@ -36,8 +48,9 @@ Film::Film(int width, int height, int samples, std::span<const LayerKind> layers
       rows_((height + tileSize - 1) / tileSize),
       noise_(noise),
       waves_(wavesOf(samples)),
-      pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
+      pixels_(width, height, tileSize),
       states_(std::make_unique<TileState[]>(static_cast<std::size_t>(tiles()))) {
+  if (noise > 0) firstErrors_.resize(pixels_.size());
   for (const LayerKind& kind : layers) {
     Layer& layer = layers_.emplace_back(Layer{.kind = kind, .sums = {}});
     if (kind.keep == Keep::counts)
@@ -91,11 +104,13 @@ void Film::sum(const Wave& wave, const TileSamples& samples) {
   std::size_t at = 0;
   for (int y = area.y0; y < area.y1; ++y)
     for (int x = area.x0; x < area.x1; ++x) {
-      PixelSum& pixel = pixels_[index(x, y)];
       if (settled(x, y)) continue;
-      const bool isFirst = pixel.taken() < PixelSum::kFewest;
-      for (std::size_t k = at; k < at + count; ++k)
-        pixel.add(samples.colors[k], samples.weights.empty() ? 1 : samples.weights[k]);
+      pixels_.change(x, y, [&](PixelSum& pixel) {
+        const bool isFirst = pixel.taken() < PixelSum::kFewest;
+        for (std::size_t k = at; k < at + count; ++k)
+          pixel.add(samples.colors[k], samples.weights.empty() ? 1 : samples.weights[k]);
+        if (isFirst && noise_ > 0) firstErrors_[index(x, y)] = pixel.firstErrorFor(white_);
+      });
       if (keepsHalves())
         for (std::size_t k = at; k < at + count; ++k)
           if (isOfFirstHalf(wave.first + static_cast<int>(k - at)) && isFinite(samples.colors[k]))
@@ -104,9 +119,8 @@ void Film::sum(const Wave& wave, const TileSamples& samples) {
         addToLayer(layers_[i], index(x, y), samples, i < samples.layers.size() ? &samples.layers[i] : nullptr,
                    at, at + count, wave.first == 0);
       at += count;
-      if (isFirst) pixel.noteFirstErrorFor(white_);
     }
-  for (const PixelBeside& one : samples.beside) pixels_[index(one.x, one.y)].noteFirstError(one.firstError);
+  for (const PixelBeside& one : samples.beside) firstErrors_[index(one.x, one.y)] = one.firstError;
 }
 
 void Film::addToLayer(Layer& layer, std::size_t pixel, const TileSamples& samples,
@@ -145,12 +159,13 @@ void Film::addToLayer(Layer& layer, std::size_t pixel, const TileSamples& sample
 }
 
 bool Film::settled(int x, int y) const {
-  const PixelSum& pixel = pixels_[index(x, y)];
+  if (!(noise_ > 0)) return false;
+  const PixelSum pixel = pixels_.at(x, y);
   if (!pixel.settles(noise_, white_)) return false;
-  double around = 0;
+  float around = 0;
   for (int v = std::max(0, y - 1); v <= std::min(height_ - 1, y + 1); ++v)
     for (int u = std::max(0, x - 1); u <= std::min(width_ - 1, x + 1); ++u)
-      around = std::max(around, pixels_[index(u, v)].firstError());
+      around = std::max(around, firstErrors_[index(u, v)]);
   return pixel.isSure(noise_, around);
 }
 
@@ -193,7 +208,7 @@ double Film::shareDone() const {
     const Tile area = tile(i);
     for (int y = area.y0; y < area.y1; y += step)
       for (int x = area.x0; x < area.x1; x += step) {
-        const PixelSum& pixel = pixels_[index(x, y)];
+        const PixelSum pixel = pixels_.at(x, y);
         const int taken = pixel.taken();
         if (taken == 0 && state.waves > 0) continue;  // it is not rendered
         done += taken;
@@ -229,7 +244,7 @@ void Film::forEachDone(const Use& use) const {
     const Tile area = tile(i);
     for (int y = area.y0; y < area.y1; ++y) {
       checkBudget();
-      for (int x = area.x0; x < area.x1; ++x) use(pixels_[index(x, y)], x, y);
+      for (int x = area.x0; x < area.x1; ++x) use(pixels_.at(x, y), x, y);
     }
   }
 }
@@ -284,7 +299,7 @@ Color Film::ofCorners(int x, int y, int levels) const {
 }
 
 Color Film::ofSamples(int x, int y) const {
-  if (!corners_) return pixels_[index(x, y)].mean();
+  if (!corners_) return pixels_.at(x, y).mean();
   const auto waves = [&](std::size_t tile) {
     const std::lock_guard lock(states_[tile].mutex);
     return static_cast<std::size_t>(states_[tile].waves);

@@ -61,9 +61,11 @@ class Reader {
 class FilmState {
  public:
   static void put(Writer& to, const PixelSum& pixel) {
+    const bool plain = FilmPixels::isPlain(pixel);
     to.put(pixel.taken_);
-    to.put(pixel.squares_);
-    put(to, pixel.colors_);
+    to.put(pixel.spread_);
+    to.put(static_cast<std::uint8_t>(plain));
+    plain ? to.put(pixel.colors_.sum_) : put(to, pixel.colors_);
   }
 
   static void put(Writer& to, const WeightedMean& mean) {
@@ -77,9 +79,17 @@ class FilmState {
 
   static void take(Reader& from, PixelSum& pixel) {
     pixel.taken_ = from.take<int>();
-    pixel.squares_ = from.take<double>();
-    if (!(pixel.squares_ >= 0)) throw std::runtime_error("a sum of squares is negative or no number");
+    pixel.spread_ = from.take<float>();
+    const auto plain = from.take<std::uint8_t>();
+    if (plain > 1) throw std::runtime_error("a pixel is neither of one kind nor of the other");
+    if (plain) {
+      pixel.colors_.sum_ = from.take<Color>();
+      pixel.colors_.weights_ = pixel.taken_;
+      return;
+    }
     take(from, pixel.colors_);
+    if (FilmPixels::isPlain(pixel))
+      throw std::runtime_error("a pixel is of one kind and said to be of another");
   }
   /// Throws unless the pixel of a tile with that many waves has the samples of all of them, or was left out,
   /// or, where pixels stop for an error, stopped after one of them.
@@ -281,8 +291,8 @@ class FilmState {
       const Tile area = film.tile(i);
       for (int y = area.y0; y < area.y1; ++y)
         for (int x = area.x0; x < area.x1; ++x) {
-          put(to, film.pixels_[film.index(x, y)]);
-          if (film.noise_ > 0) to.put(film.pixels_[film.index(x, y)].firstError_);
+          put(to, film.pixels_.at(x, y));
+          if (film.noise_ > 0) to.put(film.firstErrors_[film.index(x, y)]);
           for (const Film::Layer& layer : film.layers_) put(to, layer, film.index(x, y));
           if (film.keepsHalves()) put(to, film.first_[film.index(x, y)]);
         }
@@ -308,17 +318,23 @@ class FilmState {
     return waves;
   }
 
+  static void takeFirstError(Reader& from, float& error) {
+    error = from.take<float>();
+    if (!(error >= 0)) throw std::runtime_error("an error is negative or no number");
+  }
+
   /// The pixels of a tile that has these waves.
   static void takeTile(Reader& from, Film& film, std::int64_t tile, std::span<const Wave> there) {
     const Tile area = film.tile(tile);
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x) {
-        PixelSum& pixel = film.pixels_[film.index(x, y)];
+        PixelSum pixel;
         take(from, pixel);
         checkTaken(film, pixel, there);
-        if (film.noise_ > 0) pixel.firstError_ = from.take<float>();
-        if (!(pixel.firstError_ >= 0)) throw std::runtime_error("an error is negative or no number");
-        for (Film::Layer& layer : film.layers_) take(from, layer, film.index(x, y), pixel.taken_);
+        const int taken = pixel.taken_;
+        film.pixels_.put(x, y, std::move(pixel));
+        if (film.noise_ > 0) takeFirstError(from, film.firstErrors_[film.index(x, y)]);
+        for (Film::Layer& layer : film.layers_) take(from, layer, film.index(x, y), taken);
         if (film.keepsHalves()) take(from, film.first_[film.index(x, y)]);
       }
   }
@@ -398,7 +414,8 @@ class FilmState {
 
   static void clear(Film& film, std::vector<Wave> waves) {
     film.waves_ = std::move(waves);
-    std::fill(film.pixels_.begin(), film.pixels_.end(), PixelSum{});
+    film.pixels_.clear();
+    std::fill(film.firstErrors_.begin(), film.firstErrors_.end(), 0.0f);
     for (Film::Layer& layer : film.layers_) {
       std::fill(layer.sums.pixels.begin(), layer.sums.pixels.end(), Color(0));
       std::fill(layer.below.pixels.begin(), layer.below.pixels.end(), Color(0));

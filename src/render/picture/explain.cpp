@@ -60,11 +60,11 @@ Explanation explainDivided(std::span<const Moment> moments, const Settings& sett
 }
 
 /// The greatest of the pixels around, and of this one.
-double firstErrorAround(PixelTracer& tracer, const Size& size, int x, int y, double white) {
+float firstErrorAround(PixelTracer& tracer, const Size& size, int x, int y, double white) {
   const auto waves = wavesOf(tracer.samples());
   const auto first = std::find_if(waves.begin(), waves.end(),
                                   [](const Wave& wave) { return wave.end >= PixelSum::kFewest; });
-  double greatest = 0;
+  float greatest = 0;
   for (int v = std::max(0, y - 1); v <= std::min(size.height - 1, y + 1); ++v)
     for (int u = std::max(0, x - 1); u <= std::min(size.width - 1, x + 1); ++u)
       greatest = std::max(greatest, firstErrorOf(tracer, u, v, first->end, white));
@@ -87,7 +87,7 @@ Explanation explain(std::span<const Moment> moments, const Settings& settings, c
   PixelTracer(moments, settings, size, &result.tree).sample(x, y, sample);
 
   PixelSum sum;
-  std::optional<double> around;
+  std::optional<float> around;
   const auto isSure = [&] {
     if (!around) around = firstErrorAround(plain, size, x, y, whiteOf(settings));
     return sum.isSure(settings.noiseTarget, *around);

@@ -15,11 +15,13 @@ std::optional<SeenBehind> seenBehind(Tracer& tracer, const CameraRay& camera, co
     if (!next) break;
     const Color spread = scatter(place.bsdf(), place.frame, place.normal, -at.ray.direction).diffuse;
     if (maxComponent(spread) > maxComponent(next->weight)) break;
-    SeenBehind further{{at.hit->leave(next->direction), {}, next->in(at.inside)},
+    const Ray ray = at.hit->leave(next->direction);
+    const auto cast = [&](Interfaces& inside) {
+      return tracer.cast(ray, next->kind, inside, tracer.chance(numbers));
+    };
+    SeenBehind further{CameraRay(ray, next->in(at.inside), cast),
                        seen ? seen->passes * next->weight : next->weight,
                        (seen ? seen->distance : 0) + at.hit->t * length(at.ray.direction)};
-    CameraRay& last = further.last;
-    last.hit = tracer.cast(last.ray, next->kind, last.inside, tracer.chance(numbers));
     seen = std::move(further);
   }
   return seen;

@@ -28,14 +28,12 @@ Hit::Hit(const World& world, const Ray& ray, const Found& found)
 }
 
 std::optional<Hit> Tracer::cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance,
-                                std::optional<std::uint32_t> aim, const Found* first) {
+                                const std::optional<std::uint32_t>& aim, const Found* first) {
   count(kind);
   if (records()) begin(ray, kind, kInfinity, inside.wavelength);
-  std::optional<Found> found;
-  if (!first)
-    found = world_.closest(ray, facesSeenBy(kind), statistics_);
-  else if (first->t < kInfinity)
-    found = *first;
+  std::optional<Found> found = !first                 ? world_.closest(ray, facesSeenBy(kind), statistics_)
+                               : first->t < kInfinity ? std::optional(*first)
+                                                      : std::nullopt;
   passedShadowless_ = false;
   if (aim) passedPanes_ = Color(1);
   const bool passes = aim && (world_.hasShadowless() || world_.hasPanes());
@@ -114,7 +112,7 @@ std::optional<Found> Tracer::lookAt(const Ray& ray, RayKind kind, std::uint32_t 
 /// From the nearest surface on to the first that counts. The line of the ray is asked once for all crossings,
 /// so that what lies behind is hit where it is hit without the surfaces before it.
 std::optional<Found> Tracer::walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside, Real chance,
-                                  std::optional<std::uint32_t> aim) {
+                                  const std::optional<std::uint32_t>& aim) {
   const auto goesOn = [&](const Found& at) {
     return (aim && passesShadowless(at, *aim)) || ignored(ray, at, inside, chance) ||
            (aim && passesPane(ray, at));

@@ -29,9 +29,10 @@ class Tracer {
   /// A ray with an `aim` samples the light of that object, or of kSky: it passes all else that casts no
   /// shadow, and panes, which filter it.
   ///
-  /// `first` is what lookAhead() found for the ray, if that was asked.
+  /// `first` is what lookAhead() found for the ray, if that was asked. (The aim is a reference, since an
+  /// empty optional number that is passed by value waits for its flag to reach memory.)
   std::optional<Hit> cast(const Ray& ray, RayKind kind, Interfaces& inside, Real chance = 0,
-                          std::optional<std::uint32_t> aim = {}, const Found* first = nullptr);
+                          const std::optional<std::uint32_t>& aim = {}, const Found* first = nullptr);
   /// The first crossings of rays that will be cast, at most RayPacket::kRays.
   void lookAhead(std::span<const Ray* const> rays, RayKind kind, std::span<Found* const> found) {
     world_.closest(rays, facesSeenBy(kind), statistics_, found);
@@ -182,7 +183,7 @@ class Tracer {
   bool occluded(const Ray& ray, Real tMost, QueryCounts<Nodes>& counts);
   void sortCrossed();
   std::optional<Found> walk(const Ray& ray, RayKind kind, Found found, Interfaces& inside, Real chance,
-                            std::optional<std::uint32_t> aim);
+                            const std::optional<std::uint32_t>& aim);
   bool ignored(const Ray& ray, const Found& found, Interfaces& inside, Real& chance);
   bool passesShadowless(const Found& found, std::uint32_t aim);
   bool passesPane(const Ray& ray, const Found& found);

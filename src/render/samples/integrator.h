@@ -24,9 +24,14 @@ struct Thrown {
 
 /// A camera ray and the first surface that it hits.
 struct CameraRay {
+  /// One whose hit is that of `cast(inside)`, which changes what it is inside of.
+  template <class Cast>
+  CameraRay(const Ray& r, const Interfaces& start, const Cast& cast)
+      : ray(r), inside(start), hit(cast(inside)) {}
+
   Ray ray;
+  Interfaces inside;  ///< what the ray is in when it gets there
   std::optional<Hit> hit;
-  Interfaces inside;                             ///< what the ray is in when it gets there
   Real weight = 1;                               ///< what its radiance counts in the mean of the pixel
   const Differentials* differentials = nullptr;  ///< null if no footprints are needed
   Real ink = 0;                                  ///< how much of the sample is an outline, which is black

@@ -140,9 +140,20 @@ class PixelTracer {
  private:
   /// The camera ray of a sample, before it is cast.
   struct Aimed {
+    /// The sampler is made of the rest; `choose` places the sample by it. All is made where it stays.
+    template <class Choose, class... Own>
+    Aimed(const PixelTracer& pixels, const Vec2& middle, const Choose& choose, const Own&... own)
+        : sampler(own...),
+          moment(pixels.momentOf(sampler)),
+          drawn(choose(sampler)),
+          place(pixels.frameOf(moment).inEyeOf(middle, drawn.place)),
+          lens(pixels.frameOf(moment).optics.lens.radius > 0 ? sampler.branch(Branch::lens).next2()
+                                                             : kCenter),
+          ray(pixels.frameOf(moment).ray(place, lens)) {}
+
     Sampler sampler;
     std::size_t moment;
-    Real weight;
+    FilmSample drawn;
     Vec2 place, lens;
     Ray ray;
   };
@@ -157,15 +168,13 @@ class PixelTracer {
 
   /// The ray of a place of the picture, which counts for the pixel of that middle.
   Aimed aim(const Sampler& sampler, const Vec2& middle, const FilmSample& drawn) const {
-    const std::size_t moment = momentOf(sampler);
-    const CameraFrame& frame = moments_[moment].world->camera();
-    const Vec2 place = frame.inEyeOf(middle, drawn.place);
-    const Vec2 lens = frame.optics.lens.radius > 0 ? sampler.branch(Branch::lens).next2() : kCenter;
-    return {sampler, moment, drawn.weight, place, lens, frame.ray(place, lens)};
+    return Aimed(
+        *this, middle, [&](const Sampler&) { return drawn; }, sampler);
   }
+  const CameraFrame& frameOf(std::size_t moment) const { return moments_[moment].world->camera(); }
   Aimed aim(const Name& name) const {
-    const Sampler sampler(rules_, name.x, name.y, name.k);
-    return aim(sampler, rules_.middle(name.x, name.y), sampler.film());
+    const auto choose = [](const Sampler& sampler) { return sampler.film(); };
+    return Aimed(*this, rules_.middle(name.x, name.y), choose, rules_, name.x, name.y, name.k);
   }
   template <class Look>
   Color follow(const Aimed& aimed, const Found* first, const Look& look) {
@@ -179,24 +188,27 @@ class PixelTracer {
   template <class Use>
   std::invoke_result_t<const Use&, const CameraRay&> withCamera(const Aimed& aimed, const Found* first,
                                                                 const Use& use) {
-    const auto& [sampler, moment, weight, place, lens, ray] = aimed;
+    const auto& [sampler, moment, drawn, place, lens, ray] = aimed;
     Tracer& tracer = this->tracer(moment);
     const World& world = tracer.world();
     Footprint differentials;
     if (world.wantsFootprints()) differentials = differentialsAt(world.camera(), place, lens, ray);
-    Interfaces inside = tracer.interfacesAt(ray.origin);
     const bool weighs = moments_[now_].integrator->weighsHoles();
     const Real chance = weighs || !world.hasHoles() ? 0 : sampler.branch(Branch::cameraHole).next();
-    CameraRay camera{ray, tracer.cast(ray, RayKind::camera, inside, chance, {}, first), std::move(inside),
-                     weight, differentials.get()};
+    CameraRay camera(ray, tracer.interfacesAt(ray.origin), [&](Interfaces& inside) {
+      return tracer.cast(aimed.ray, RayKind::camera, inside, chance, {}, first);
+    });
+    camera.weight = drawn.weight;
+    camera.differentials = differentials.get();
     if (tracer.settings().outlines > 0) camera.ink = inkAt(tracer, camera.hit, place, lens, rules_.size());
     if (splats_) camera.thrown = &thrown_;
     return use(camera);
   }
   Color radiance(const Sampler& sampler, const CameraRay& camera) {
     thrown_.clear();
-    const Color radiance = moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
-    return spreadThrown(sampler.sample()) ? radiance : Color(std::numeric_limits<Real>::quiet_NaN());
+    Color radiance = moments_[now_].integrator->radiance(tracers_[now_], sampler, camera);
+    if (!spreadThrown(sampler.sample())) radiance = Color(std::numeric_limits<Real>::quiet_NaN());
+    return radiance;
   }
   /// False if something that the sample has thrown is not finite: it is a part of the sample, which is as bad
   /// as that.
@@ -248,12 +260,11 @@ void addWave(PixelTracer& tracer, int x, int y, const Wave& wave, PixelSum& sum,
   }
 }
 
-/// PixelSum::firstError() after so many samples, of that white.
-inline double firstErrorOf(PixelTracer& tracer, int x, int y, int samples, double white) {
+/// PixelSum::firstErrorFor() of that white, after so many samples.
+inline float firstErrorOf(PixelTracer& tracer, int x, int y, int samples, double white) {
   PixelSum sum;
   addWave(tracer, x, y, {0, samples}, sum, [](const Color&, Real) {});
-  sum.noteFirstErrorFor(white);
-  return sum.firstError();
+  return sum.firstErrorFor(white);
 }
 
 }  // namespace trace

@@ -12,7 +12,7 @@ namespace trace {
 /// The Differentials of a ray, if it has any.
 class Footprint {
  public:
-  Footprint() = default;
+  Footprint() {}  // not "= default", with which GCC fills its memory with zeros for each ray
   Footprint(const Differentials& of) : of_(of) {}  // NOLINT(google-explicit-constructor)
   const Differentials* get() const { return of_ ? &*of_ : nullptr; }
 

@@ -70,10 +70,13 @@ bool World::shadows(const MaterialMix& materials) const {
 }
 
 PlaceBsdf World::bsdfAt(const Ray& ray, const Found& found) const {
+  static const SurfacePoint kNotAsked;
   MaterialMix materials = materialMix(found);
-  const SurfacePoint point = textured(materials) ? surface(ray, found) : SurfacePoint();
-  if (hasHoles_) pierce(found.object, found.part, point, materials);
-  return shade(found.object, found.part, materials, point, nullptr);
+  const auto at = [&](const SurfacePoint& point) {
+    if (hasHoles_) pierce(found.object, found.part, point, materials);
+    return shade(found.object, found.part, materials, point, nullptr);
+  };
+  return textured(materials) ? at(surface(ray, found)) : at(kNotAsked);
 }
 
 Real World::opacityAt(const Ray& ray, const Found& found) const {

@@ -115,8 +115,8 @@ struct CameraFrame {
   /// The ray from the point of the lens that `u` chooses.
   Ray ray(const Vec2& place, const Vec2& u) const {
     if (!plain) return bent(place, &u);
-    const Ray middle = pinhole(place);
-    return optics.lens.radius > 0 ? through(middle, u, ahead) : middle;
+    if (!(optics.lens.radius > 0)) return pinhole(place);
+    return through(pinhole(place), u, ahead);
   }
 
   /// Where ray(place) of a pinhole goes that way; of a ray that looks backward, where its opposite does. With

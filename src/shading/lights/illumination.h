@@ -15,7 +15,7 @@ namespace trace {
 
 struct Illumination {
   Vec3 toLight;            ///< unit
-  Real distance;           ///< beyond it nothing casts a shadow; infinite for directional lights
+  Real distance = 0;       ///< beyond it nothing casts a shadow; infinite for directional lights
   Color color;             ///< color of the source
   Real attenuation = 1;    ///< by distance
   Color extraHighlight{};  ///< added to `color` in highlights
@@ -37,10 +37,16 @@ Real faded(const L& light, Real distance, const Rules& rules) {
 /// The light that arrives at p from a uniform point at the light's position; nothing at that place itself.
 template <class L>
 std::optional<Illumination> fromPlace(const L& light, const Vec3& p, const Rules& rules) {
+  std::optional<Illumination> arriving;
   const Vec3 d = light.position - p;
-  const Real l = length(d);
-  if (!(l > 0)) return {};
-  return Illumination{d / l, l, light.color, faded(light, l, rules), {}};
+  if (const Real l = length(d); l > 0) {
+    arriving.emplace();
+    arriving->toLight = d / l;
+    arriving->distance = l;
+    arriving->color = light.color;
+    arriving->attenuation = faded(light, l, rules);
+  }
+  return arriving;
 }
 
 /// Where a light is aimed: unit vectors, `up` as nearly upward as it can be.

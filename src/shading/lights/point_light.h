@@ -43,9 +43,10 @@ struct PointLight {
 
   std::optional<Illumination> illuminate(const Vec3& p, const Rules& rules, const Vec2& u = kCenter) const {
     std::optional<Illumination> arriving = fromPlace(*this, p, rules);
-    if (!arriving) return {};
-    arriving->extraHighlight = extraHighlight;
-    towardBall(*arriving, radius, u);
+    if (arriving) {  // one object all the way: copies of what was just written wait for memory
+      arriving->extraHighlight = extraHighlight;
+      towardBall(*arriving, radius, u);
+    }
     return arriving;
   }
   LightReach reach(const Rules& rules) const {

@@ -266,16 +266,29 @@ MicrofacetAlbedo meanMicrofacetAlbedo(const Microfacets& facets) {
 
 namespace {
 
-/// Lagrange's polynomials of the nodes at x: 1 at their own, 0 at the others.
-FacetShares nodeWeights(Real x) {
-  FacetShares weights;
-  for (std::size_t k = 0; k < kFresnelNodes; ++k) {
-    weights[k] = 1;
-    for (std::size_t j = 0; j < kFresnelNodes; ++j)
-      if (j != k) weights[k] *= (x - fresnelNode(j)) / (fresnelNode(k) - fresnelNode(j));
+/// Lagrange's polynomials of the nodes: 1 at their own, 0 at the others.
+class NodeWeights {
+ public:
+  NodeWeights() {
+    for (std::size_t j = 0; j < kFresnelNodes; ++j) {
+      node_[j] = fresnelNode(j);
+      for (std::size_t k = 0; k < kFresnelNodes; ++k) apart_[j][k] = k == j ? 1 : fresnelNode(k) - node_[j];
+    }
   }
-  return weights;
-}
+  FacetShares at(Real x) const {
+    FacetShares weights;
+    weights.fill(1);
+    for (std::size_t j = 0; j < kFresnelNodes; ++j) {
+      const Real own = weights[j];
+      for (std::size_t k = 0; k < kFresnelNodes; ++k) weights[k] *= (x - node_[j]) / apart_[j][k];
+      weights[j] = own;
+    }
+    return weights;
+  }
+
+ private:
+  FacetShares node_, apart_[kFresnelNodes];  ///< apart_[j][k]: from node j to node k
+};
 void add(FacetShares& sum, const FacetShares& shares, Real weight) {
   for (std::size_t k = 0; k < kFresnelNodes; ++k) sum[k] += shares[k] * weight;
 }
@@ -293,13 +306,14 @@ struct ShareTable {
   FacetShares mean[kWidths + 1];
 
   explicit ShareTable(Distribution kind) {
+    const NodeWeights weights;
     for (int w = 0; w <= kWidths; ++w) {
       const Microfacets facets = Microfacets::of(kind, 1.0 * w / kWidths * kMostRoughness);
       mean[w] = {};
       for (int c = 0; c <= kCosines; ++c) {
         at[w][c] = {};
         forEachMirror(facets, seenFrom(c, kCosines), EvenTable::kSamples,
-                      [&](Real share, Real cosine) { add(at[w][c], nodeWeights(cosine), share); });
+                      [&](Real share, Real cosine) { add(at[w][c], weights.at(cosine), share); });
         add(mean[w], at[w][c], meanWeight(c, kCosines));
       }
     }
@@ -356,8 +370,9 @@ const FacetShares& meanFresnelShares() {
   static const FacetShares kMean = [] {
     FacetShares mean{};
     constexpr int kSteps = 1024;
+    const NodeWeights weights;
     for (int c = 0; c <= kSteps; ++c)
-      add(mean, nodeWeights(1.0 * c / kSteps * c / kSteps), meanWeight(c, kSteps));
+      add(mean, weights.at(1.0 * c / kSteps * c / kSteps), meanWeight(c, kSteps));
     return mean;
   }();
   return kMean;

@@ -155,9 +155,28 @@ CsgTree::CsgTree(CsgRule rule, const std::vector<Operand>& operands, const MeshT
   const ShapeFacts facts = whole.facts();
   partCount_ = facts.partCount;
   bounds_ = facts.bounds;
+  reach_ = bounds_.empty() || bounds_.unbounded() ? bounds_ : roomy(bounds_);
   near_ = std::ldexp(maxComponent(bounds_.size()), -20);
   tree_ = LineTree(std::move(boxes));
 }
+
+namespace {
+
+/// In order: nearly always they are a few.
+template <class Event>
+void sortFew(std::span<Event> events) {
+  constexpr std::size_t kFew = 16;
+  if (events.size() > kFew) return std::sort(events.begin(), events.end());
+  for (std::size_t i = 1; i < events.size(); ++i) {
+    if (!(events[i] < events[i - 1])) continue;
+    const Event event = events[i];
+    std::size_t at = i;
+    for (; at > 0 && event < events[at - 1]; --at) events[at] = events[at - 1];
+    events[at] = event;
+  }
+}
+
+}  // namespace
 
 void CsgTree::gather(const Ray& ray, SmallList<Event, 16>& events) const {
   tree_.query(ray, [&](std::uint32_t number) {
@@ -169,16 +188,18 @@ void CsgTree::gather(const Ray& ray, SmallList<Event, 16>& events) const {
     operands_[number].crossings(ray, add);
     // Entry and exit take turns; a crossing too many, of a mesh that is not closed, leads nowhere.
     const std::span<Event> own = events.all().subspan(before);
-    std::sort(own.begin(), own.end());
+    sortFew(own);
     for (std::size_t i = 0; i + 1 < own.size(); i += 2) own[i].entering = true;
     if (own.size() % 2 != 0 && operands_[number].solid()) own.back().t = kInfinity;
+    return own.empty() && needs(number);
   });
 }
 
-/// Do the crossings lie nearer together than their errors reach?
-bool CsgTree::coincide(const Ray& ray, const Event& a, const Event& b) const {
+/// Do the crossings lie nearer together than their errors reach? `speed` is the length of the ray's
+/// direction.
+bool CsgTree::coincide(const Ray& ray, Real speed, const Event& a, const Event& b) const {
   const Real apart = b.t - a.t;
-  if (a.operand == b.operand || !(apart * length(ray.direction) <= near_)) return false;
+  if (a.operand == b.operand || !(apart * speed <= near_)) return false;
   const auto reach = [&](const Event& event) {
     const SurfacePoint s = operandSurface(ray, {event.t, event.part});
     return dot(abs(s.normal), s.error) / std::abs(dot(s.normal, ray.direction));
@@ -187,15 +208,18 @@ bool CsgTree::coincide(const Ray& ray, const Event& a, const Event& b) const {
 }
 
 void CsgTree::crossings(const Ray& ray, VisitCrossing visit) const {
+  if (!LineProbe(ray).meets(reach_)) return;
   SmallList<Event, 16> list;
   gather(ray, list);
   const std::span<Event> events = list.all();
-  std::sort(events.begin(), events.end());
+  if (events.empty()) return;
+  sortFew(events);
+  const Real speed = length(ray.direction);
   State state(rule_, operands_.size());
   const bool clips = !rule_.solid;
   for (std::size_t i = 0; i < events.size();) {
     std::size_t end = i + 1;
-    while (end < events.size() && coincide(ray, events[end - 1], events[end])) ++end;
+    while (end < events.size() && coincide(ray, speed, events[end - 1], events[end])) ++end;
     const bool before = state.inside();
     for (std::size_t k = i; k < end; ++k)
       if (!clips || events[k].operand != 0) state.apply(events[k]);

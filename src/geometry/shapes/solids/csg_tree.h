@@ -66,13 +66,19 @@ class CsgTree {
   class State;
 
   void gather(const Ray& ray, SmallList<Event, 16>& events) const;
-  bool coincide(const Ray& ray, const Event& a, const Event& b) const;
+  bool coincide(const Ray& ray, Real speed, const Event& a, const Event& b) const;
+  /// The line of a ray that does not hit the operand is nowhere inside the whole.
+  bool needs(std::uint32_t operand) const {
+    return rule_.operation == CsgOperation::intersect ||
+           (rule_.operation == CsgOperation::subtract && operand == 0);
+  }
   SurfacePoint operandSurface(const Ray& ray, const Crossing& crossing) const;
 
   CsgRule rule_;
   std::vector<Placed> operands_;
   std::vector<std::uint32_t> materials_;
   Box3 bounds_;
+  Box3 reach_;     ///< bounds_ with room left
   Real near_ = 0;  ///< crossings farther apart never coincide
   std::int64_t partCount_ = 1;
   LineTree tree_;  ///< over the operands
