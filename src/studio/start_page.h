@@ -29,7 +29,7 @@ struct StartPage {
     return looked && pictures.size() == lessons.size() + integrators.size() + scenes.size();
   }
   /// A small picture is there to be shown.
-  bool news(bool sceneIsOpen) const { return !sceneIsOpen && task.pending() && !task.busy(); }
+  bool news(bool sceneIsOpen) const { return !sceneIsOpen && task.hasNews(); }
 };
 
 void drawStart(Studio& studio, ImVec2 area);
