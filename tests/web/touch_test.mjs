@@ -60,7 +60,9 @@ await drive({ viewport: { width: 390, height: 844 }, deviceScaleFactor: 3, hasTo
   await page.keyboard.press('Escape');
   await studio.until(/^popup none$/m, 'which closes');
 
-  await tap('all options');
+  await tap('menu View');
+  await tap('action Build');
+  await tap('panel Controls');
   await studio.until(/^at .* option spp$/m, 'all options are shown');
   const before = await studio.place('option spp');
   await move([before], [[before[0], before[1] - 20]], [[before[0], before[1] - 60]]);
