@@ -20,7 +20,7 @@ cli studio library'
 
 # Folders that are divided into rooms, each from the bottom: a room sees only those before it in the row.
 rooms='formats/ray syntax read language file write
-app advice session lint explain compare grading editing view
+app advice session lint explain compare grading input editing view
 render world maps rays samples lights media paths photons integrators chains picture'
 most=30  # files in a folder, without those in folders below it
 

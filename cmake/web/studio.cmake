@@ -11,7 +11,7 @@ target_link_libraries(ray-studio PRIVATE trace_studio imgui)
 # One folder of a few files that any server can serve: the page (web/), the program, and the scenes and the font that it reads.
 set(font /usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf)
 target_link_options(ray-studio PRIVATE -fexceptions -pthread -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2 -sUSE_GLFW=3
-  "-sPTHREAD_POOL_SIZE=navigator.hardwareConcurrency+16" -sINITIAL_MEMORY=256MB -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=4GB
+  -sPTHREAD_POOL_SIZE=Module.workers -sINITIAL_MEMORY=256MB -sALLOW_MEMORY_GROWTH -sMAXIMUM_MEMORY=4GB
   -sTOTAL_STACK=4MB -sDEFAULT_PTHREAD_STACK_SIZE=2MB -sEXPORTED_RUNTIME_METHODS=ccall,FS -sFORCE_FILESYSTEM -sENVIRONMENT=web,worker
   "SHELL:--preload-file ${PROJECT_SOURCE_DIR}/scenes@/scenes" "SHELL:--preload-file ${font}@${font}" -Wno-pthreads-mem-growth)
 # The program, for node: what the page computes, to be compared with the desktop's (tests/web).
@@ -22,7 +22,7 @@ set(page ${PROJECT_BINARY_DIR}/page)
 add_custom_target(web ALL DEPENDS ray-studio
   COMMAND ${CMAKE_COMMAND} -E make_directory ${page}
   COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/web/index.html ${PROJECT_SOURCE_DIR}/web/page.js
-          ${PROJECT_SOURCE_DIR}/web/isolation.js ${PROJECT_BINARY_DIR}/bin/ray-studio.js ${PROJECT_BINARY_DIR}/bin/ray-studio.wasm
+          ${PROJECT_SOURCE_DIR}/web/input.js ${PROJECT_SOURCE_DIR}/web/isolation.js ${PROJECT_BINARY_DIR}/bin/ray-studio.js ${PROJECT_BINARY_DIR}/bin/ray-studio.wasm
           ${PROJECT_BINARY_DIR}/bin/ray-studio.data ${PROJECT_BINARY_DIR}/bin/ray-studio.worker.js ${page})
 # A place where an exception may pass costs a call into JavaScript here. The code that rays run through has none: a render that is
 # cancelled there frees less than all of its memory.

@@ -102,21 +102,13 @@ void zoomText(Studio& studio, float factor) {
 }
 
 void copyLink(Studio& studio) {
-  const Document& document = studio.workspace.document;
-  const std::string file = (std::filesystem::path(document.file()).parent_path() / "link.ray").string();
   try {
-    Document::write(document.saving(file));
+    const host::Kept kept = keptScene(studio);
+    host::copyLink(kept.text, kept.pixel);
   } catch (const Error& error) {
     studio.refuse(error.what());
     return studio.show("Log");
   }
-  std::string pixel;
-  if (studio.picture.pixel) {
-    const auto& shown = studio.picture.shown;
-    const auto [x, y] = studio.picture.pixel.in({shown.width, shown.height});
-    pixel = std::to_string(x) + "," + std::to_string(y);
-  }
-  host::copyLink(file, pixel);
   studio.workspace.note("the link is copied");
 }
 
@@ -276,6 +268,20 @@ void menuTooltip(const char* help) {
 
 }  // namespace
 
+host::Kept keptScene(const Studio& studio) {
+  const Document& document = studio.workspace.document;
+  if (!document.isOpen()) return {};
+  host::Kept kept{
+      (std::filesystem::path(document.file()).parent_path() / "link.ray").string(), document.file(), {}};
+  Document::write(document.saving(kept.text));
+  if (studio.picture.pixel) {
+    const auto& shown = studio.picture.shown;
+    const auto [x, y] = studio.picture.pixel.in({shown.width, shown.height});
+    kept.pixel = std::to_string(x) + "," + std::to_string(y);
+  }
+  return kept;
+}
+
 void takeKeys(Studio& studio) {
   if (studio.pressed(kEnter)) enterPresses();
   if (modalIsOpen(studio)) return;
@@ -342,6 +348,8 @@ void drawMenuEnd(Studio& studio) {
   const float gap = characters(2);
   float width = ImGui::CalcTextSize(text.c_str()).x + gap;
   for (const Arrangement& each : arrangements()) width += ImGui::CalcTextSize(each.name.data()).x + gap;
+  const float room = ImGui::GetWindowWidth() - ImGui::GetCursorPosX();
+  if (room < width - ImGui::CalcTextSize(text.c_str()).x) return;  // a narrow window: the menu has them too
   ImGui::SameLine(std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - gap));
   for (const Arrangement& each : arrangements()) {
     const bool now = studio.layout.arrangement == each.name;

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "studio/host.h"
 #include "studio/studio.h"
 
 namespace trace::studio {
@@ -23,6 +24,8 @@ struct Action {
 std::span<const Action> actions();
 /// Opens the file dialog for an option that names a file.
 void chooseFile(Studio& studio, const Option& option);
+/// Writes the scene as it is now next to its file, for a page to keep or send. Throws Error.
+host::Kept keptScene(const Studio& studio);
 /// "Ctrl+Shift+S", or "".
 std::string keyText(const Action& action);
 

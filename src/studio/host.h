@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/input/fingers.h"
+
 struct GLFWwindow;
 
 namespace trace::studio::host {
@@ -29,9 +31,25 @@ void handOver(const std::string& file);
 /// files are at hand.
 void askForFiles();
 std::vector<std::string> takeOpened();
+/// Changes of fingers on the screen of a page, and events of the screen's keyboard, since the last call.
+/// Nothing on the desktop, where GLFW reports all input.
+std::vector<Touch> takeTouches();
+std::vector<InputEvent> takeTyped();
+/// A field takes text, or none does: a page shows or hides the keyboard of the screen.
+void wantText(bool wanted);
+/// Gives Dear ImGui the clipboard of the page. On the desktop it has that of GLFW.
+void connectClipboard();
 /// Copies an address that holds the scene in this file and names a pixel, "X,Y" or "". Nothing on the
 /// desktop.
 void copyLink(const std::string& scene, const std::string& pixel);
+/// The scene as it is now, which a page keeps when it is loaded again.
+struct Kept {
+  std::string text;   ///< the file that has it
+  std::string name;   ///< the file that it is the new text of; "" if nothing is open
+  std::string pixel;  ///< "X,Y", or "" if none is chosen
+};
+/// A page asks for it before it goes. Nothing on the desktop.
+void keepWith(std::function<Kept()> scene);
 /// A page may ask what the window shows, in words (script_state.h): so it is tested. Nothing on the desktop.
 void answerWith(std::function<std::string()> state);
 /// Whether this is a page in a browser.

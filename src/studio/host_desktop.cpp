@@ -42,7 +42,12 @@ char keyWrites(int key, int scancode) {
 void handOver(const std::string&) {}
 void askForFiles() {}
 std::vector<std::string> takeOpened() { return {}; }
+std::vector<Touch> takeTouches() { return {}; }
+std::vector<InputEvent> takeTyped() { return {}; }
+void wantText(bool) {}
+void connectClipboard() {}
 void copyLink(const std::string&, const std::string&) {}
+void keepWith(std::function<Kept()>) {}
 void answerWith(std::function<std::string()>) {}
 bool isPage() { return false; }
 

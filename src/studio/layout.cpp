@@ -21,7 +21,8 @@ constexpr double kLeast = DockShares::kLeast, kMost = DockShares::kMost;
 
 Dock dockOf(const Studio& studio, const Panel& panel) {
   const auto found = studio.layout.docks.find(panel.name);
-  return found == studio.layout.docks.end() ? panel.dock : found->second;
+  const Dock dock = found == studio.layout.docks.end() ? panel.dock : found->second;
+  return studio.layout.oneColumn && dock == Dock::left ? Dock::right : dock;
 }
 
 bool occupied(const Studio& studio, Dock dock) {
@@ -206,6 +207,26 @@ void drawDocks(Studio& studio, ImVec2 at, ImVec2 all, const DocksInUse& used) {
              {layout.shares.bottom, low, all.y, kMost, -1});
 }
 
+/// All docks below each other.
+void drawColumn(Studio& studio, ImVec2 at, ImVec2 all, const DocksInUse& used) {
+  constexpr float kBar = 12, kLeastDrawer = 0.3f;
+  Layout& layout = studio.layout;
+  const float low = !used.bottom ? 0
+                    : layout.drawer
+                        ? std::round(all.y * std::max(kLeastDrawer, static_cast<float>(layout.shares.bottom)))
+                        : drawerHeight();
+  const float bar = used.centre && used.right ? std::round(kBar * studio.theme.scale) : 0;
+  const float rest = all.y - low - bar;
+  const float upper = !used.centre  ? 0
+                      : !used.right ? rest
+                                    : std::round(rest * static_cast<float>(layout.shares.upper));
+  drawDock(studio, Dock::centre, "centre", at, {all.x, upper});
+  if (bar > 0)
+    splitter("column bar", {at.x, at.y + upper}, {all.x, bar}, {layout.shares.upper, upper, rest, kMost});
+  drawDock(studio, Dock::right, "right", {at.x, at.y + upper + bar}, {all.x, rest - upper});
+  drawDock(studio, Dock::bottom, "bottom", {at.x, at.y + all.y - low}, {all.x, low});
+}
+
 }  // namespace
 
 void arrange(Studio& studio, const Arrangement& arrangement) {
@@ -250,12 +271,13 @@ void drawStudio(Studio& studio) {
   const float banner = drawBanner(studio, at, all.x);
   at.y += banner;
   all.y -= banner;
+  layout.oneColumn = hasOneColumn(all.x / characters(1), all.x, all.y);
   const bool starts = !studio.workspace.document.isOpen() && occupied(studio, Dock::centre);
   const DocksInUse used{.left = occupied(studio, Dock::left) && !starts,
                         .centre = occupied(studio, Dock::centre),
                         .right = occupied(studio, Dock::right) && !starts,
                         .bottom = occupied(studio, Dock::bottom)};
-  drawDocks(studio, at, all, used);
+  layout.oneColumn ? drawColumn(studio, at, all, used) : drawDocks(studio, at, all, used);
   drawDialogs(studio);
   noteKeyboard(studio);
   std::vector<Message> remarks;

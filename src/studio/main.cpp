@@ -155,6 +155,7 @@ class Program {
       keepLandmarks();
       return state(studio_);
     });
+    host::keepWith([this] { return keptScene(studio_); });
     studio_.start.folder = host::examples();
     studio_.configFolder = folder_;
     ImGui::GetIO().IniFilename = folder_.empty() ? nullptr : ini_.c_str();

@@ -22,9 +22,14 @@ void makePictures(StartPage& page) {
     page.integrators = integratorScenesIn(page.folder);
     page.scenes = examplesIn(page.folder);
   }
+  const auto began = StartPage::Clock::now();
+  if (page.rests && began < *page.rests) return;
+  page.rests.reset();
   if (auto made = page.task.take()) {
     page.pictures.push_back(std::make_unique<Texture>());
     if (made->bytes.width > 0) page.pictures.back()->set(made->bytes);
+    const auto now = StartPage::Clock::now();
+    page.rests = now + (now - began);  // as long as it took
   }
   if (page.task.pending() || page.complete()) return;
   std::size_t next = page.pictures.size();

@@ -3,7 +3,9 @@
 
 #include <imgui.h>
 
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,12 +26,17 @@ struct StartPage {
     Bytes bytes;
   };
   BackgroundTask<Thumbnail> task;
+  using Clock = std::chrono::steady_clock;
+  std::optional<Clock::time_point>
+      rests;            ///< until then none is made: without threads that would stop all else
   bool looked = false;  ///< for the scenes
   bool complete() const {
     return looked && pictures.size() == lessons.size() + integrators.size() + scenes.size();
   }
   /// A small picture is there to be shown.
-  bool news(bool sceneIsOpen) const { return !sceneIsOpen && task.pending() && !task.busy(); }
+  bool news(bool sceneIsOpen) const {
+    return !sceneIsOpen && (rests ? Clock::now() >= *rests : task.hasNews());
+  }
 };
 
 void drawStart(Studio& studio, ImVec2 area);

@@ -25,6 +25,7 @@ namespace trace::studio {
 struct Layout {
   DockShares shares;
   bool drawer = false;        ///< the lower dock is open
+  bool oneColumn = false;     ///< as in the last frame: panels of the left dock are in the right one
   std::string arrangement{};  ///< chosen last; "" before one is
   float list = 0.42f;         ///< share of the panel Scene
   static constexpr float kLeastList = 0.1f, kMostList = 0.8f;

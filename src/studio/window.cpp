@@ -8,6 +8,8 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+// For what lies under a finger.
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
@@ -25,7 +27,8 @@ namespace trace::studio {
 struct Window::State {
   GLFWwindow* window = nullptr;
   std::vector<std::string> dropped;
-  std::vector<KeyPress> keys;   // keys of this frame
+  std::vector<KeyPress> keys;  // keys of this frame
+  Fingers fingers;
   InputQueue queue;             // what Dear ImGui, which sees one state in each frame, has not heard of yet
   bool happened = false;        // anything, since the last look
   double touched = -1;          // when mouse or keyboard did something last
@@ -65,6 +68,21 @@ void limitToMonitor(int& width, int& height) {
   }
 }
 
+/// A list or text that the wheel scrolls lies there.
+bool scrollsAt(ImVec2 place) {
+  const ImVector<ImGuiWindow*>& windows = ImGui::GetCurrentContext()->Windows;
+  for (int i = windows.Size; i-- > 0;) {
+    const ImGuiWindow* window = windows[i];
+    if (!window->WasActive || !window->OuterRectClipped.Contains(place) ||
+        (window->Flags & ImGuiWindowFlags_NoMouseInputs))
+      continue;
+    for (; window; window = window->ParentWindow)
+      if (window->ScrollMax.y > 0 && !(window->Flags & ImGuiWindowFlags_NoScrollWithMouse)) return true;
+    return false;
+  }
+  return false;
+}
+
 }  // namespace
 
 Window::Window(const std::string& title, int width, int height) : state_(std::make_unique<State>()) {
@@ -85,6 +103,7 @@ Window::Window(const std::string& title, int width, int height) : state_(std::ma
   ImGui_ImplGlfw_InitForOpenGL(state_->window, false);
   ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   ImGui_ImplOpenGL3_Init(kShaderVersion);
+  host::connectClipboard();
 }
 
 void Window::listen() {
@@ -147,9 +166,21 @@ bool Window::wait(double mostSeconds) {
   } else {
     if (host::waitForEvents(mostSeconds)) state.happened = true;
   }
+  takeFingers();
   state.heard = glfwGetTime();
   if (std::exchange(state.happened, false)) state.framesDue = kSettlingFrames;
   return state.framesDue > 0 || !state.queue.empty();
+}
+
+void Window::takeFingers() {
+  constexpr double kSlip = 8, kLinesOfNotch = 5;  // pixels of a plain monitor; as Dear ImGui scrolls
+  State& state = *state_;
+  const Fingers::Lengths lengths{kSlip * contentScale(), std::max(1.0, kLinesOfNotch * ImGui::GetFontSize())};
+  for (const Touch& touch : host::takeTouches())
+    state.fingers.take(touch, scrollsAt({static_cast<float>(touch.x), static_cast<float>(touch.y)}), lengths);
+  state.fingers.look(glfwGetTime());
+  for (const InputEvent& event : state.fingers.events()) state.add(event);
+  for (const InputEvent& event : host::takeTyped()) state.add(event);
 }
 
 void Window::hand(const InputEvent& event) {
@@ -224,6 +255,7 @@ void Window::endFrame(int magnification) {
   drawn.FramebufferScale = {drawn.FramebufferScale.x * times, drawn.FramebufferScale.y * times};
   draw();
   glfwSwapBuffers(state_->window);
+  host::wantText(ImGui::GetIO().WantTextInput);
 }
 
 bool Window::quiet() {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/editing/input_queue.h"
+#include "app/input/input_queue.h"
 #include "image/development/tone.h"
 
 namespace trace::studio {
@@ -63,6 +63,7 @@ class Window {
  private:
   void draw() const;
   void listen();
+  void takeFingers();
   void hand(const InputEvent& event);
 
   struct State;

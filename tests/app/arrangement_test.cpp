@@ -40,6 +40,13 @@ TEST(Arrangement, ASmallWindowBeginsWithTwoColumns) {
   EXPECT_EQ(firstArrangement(1280 / 8.0).name, "Build");
 }
 
+TEST(Arrangement, APhoneHasOneColumn) {
+  EXPECT_TRUE(hasOneColumn(390 / 8.0, 390, 844));
+  EXPECT_FALSE(hasOneColumn(844 / 8.0, 844, 390)) << "held sideways it has two";
+  EXPECT_FALSE(hasOneColumn(900 / 8.0, 900, 1200));
+  EXPECT_FALSE(hasOneColumn(400 / 8.0, 400, 300));
+}
+
 TEST(Arrangement, TheLeftDockHasRoomForNamesNextToValues) {
   const DockSizes small = dockSizes({.left = 0.12}, {}, 900, 600, 8, 0);
   EXPECT_EQ(small.left, 240);

@@ -1,5 +1,5 @@
 // Events come in order and keep their meaning, however many happened since the last frame.
-#include "app/editing/input_queue.h"
+#include "app/input/input_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -852,6 +852,71 @@ TEST(BackgroundTask, DoesAllJobsInTurnOrOnlyTheNewest) {
   EXPECT_FALSE(newest.pending());
 }
 
+TEST(BackgroundTask, WithoutThreadsTakeDoesAJob) {
+  std::vector<int> done;
+  const auto job = [&done](int i) {
+    return [&done, i](const Cancelled& cancelled) {
+      EXPECT_FALSE(cancelled());
+      return done.push_back(i), i;
+    };
+  };
+  {
+    BackgroundTask<int> all(Jobs::all, Threads::none), newest(Jobs::newest, Threads::none);
+    for (int i = 0; i < 3; ++i) all.start(job(i)), newest.start(job(10 + i));
+    EXPECT_TRUE(done.empty());
+    EXPECT_TRUE(newest.busy() && newest.hasNews());
+    EXPECT_EQ(newest.take(), 12);
+    EXPECT_FALSE(newest.pending());
+    EXPECT_EQ(newest.take(), std::nullopt);
+    EXPECT_EQ(all.take(), 0);
+    newest.start(job(13));
+  }
+  EXPECT_EQ(done, (std::vector<int>{12, 0, 1, 2})) << "files are written at the end, too";
+}
+
+TEST_F(WorkspaceTest, WithoutThreadsRendersBetweenFrames) {
+  Session session;
+  session.open(path("scene.ray"), std::vector<Choice>{{"width", "100", {}}});
+  BackgroundRender render(Threads::none);
+  render.start(std::make_shared<const Scene>(session.scene()), session.settings());
+  std::vector<BackgroundRender::Phase> phases;
+  for (; render.state().working(); render.advance())
+    if (phases.empty() || phases.back() != render.state().phase) phases.push_back(render.state().phase);
+  using Phase = BackgroundRender::Phase;
+  EXPECT_EQ(phases, (std::vector<Phase>{Phase::building, Phase::coarse, Phase::tracing}));
+  EXPECT_EQ(render.state().phase, Phase::finished);
+  session.build();
+  const RenderResult whole = session.renderPicture();
+  EXPECT_EQ(render.picture().pixels, session.picture().pixels);
+  EXPECT_EQ(render.result().statistics, whole.statistics);
+}
+
+TEST_F(WorkspaceTest, WithoutThreadsARenderIsStoppedAndReplaced) {
+  Session session;
+  session.open(path("scene.ray"), std::vector<Choice>{{"width", "100", {}}});
+  const auto scene = std::make_shared<const Scene>(session.scene());
+  Settings slow = session.settings();
+  slow.spp = 4000000;
+  BackgroundRender render(Threads::none);
+  using Phase = BackgroundRender::Phase;
+  const auto untilTracing = [&] {
+    for (int i = 0; i < 20; ++i) render.advance();
+    EXPECT_EQ(render.state().phase, Phase::tracing);
+  };
+  render.start(scene, slow);
+  untilTracing();
+  render.stop();
+  EXPECT_EQ(render.state().phase, Phase::stopped);
+  for (int i = 0; i < 3; ++i) render.advance();
+  EXPECT_EQ(render.state().phase, Phase::stopped);
+  EXPECT_EQ(render.result().end, End::cancelled);
+  render.start(scene, slow);
+  untilTracing();
+  render.start(scene, session.settings());
+  while (render.state().working()) render.advance();
+  EXPECT_EQ(render.state().phase, Phase::finished);
+}
+
 TEST_F(WorkspaceTest, PinnedRaysGoWithTheirScene) {
   std::filesystem::copy_file(path("scene.ray"), path("other.ray"));
   Workspace workspace;

@@ -1,13 +1,17 @@
 // Properties of whole pictures.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
+#include <functional>
 
 #include "geometry/shapes/solids/cube.h"
 #include "geometry/shapes/solids/sphere.h"
 #include "geometry/shapes/solids/square.h"
+#include "render/integrators/make_integrator.h"
 #include "render/picture/passes.h"
 #include "render/samples/integrator.h"
+#include "support/rooms.h"
 #include "support/scenes.h"
 
 namespace trace::test::render_test {
@@ -29,6 +33,54 @@ TEST(Render, SameBitsAndCountsForAnyNumberOfThreads) {
     Statistics counts;
     EXPECT_TRUE(sameBits(reference, picture(scene, settings, &counts))) << threads;
     EXPECT_EQ(one, counts);
+  }
+}
+
+/// Rendered by a wave of a tile at a time, as a window without threads does.
+Picture pictureInParts(const Scene& scene, const Settings& settings, RenderResult& result, int& parts) {
+  const World world = build(scene, settings);
+  const Size size = pictureSize(settings, scene.camera);
+  Film film = makeFilm(settings, size.width, size.height);
+  Job job;
+  const auto integrator = makeIntegrator(world, settings, job);
+  const std::array moments{Moment{&world, integrator.get()}};
+  RenderInParts render(moments, settings, film, job);
+  std::optional<RenderResult> end;
+  double fraction = 0;
+  for (parts = 1; !(end = render.next(0)); ++parts) {
+    EXPECT_GE(job.fraction(), fraction) << "it goes forward";
+    fraction = job.fraction();
+  }
+  result = *end;
+  EXPECT_EQ(job.fraction(), 1);
+  return film.picture();
+}
+
+TEST(Render, SameBitsAndCountsInParts) {
+  Scene scene = openRoom();
+  Phong glass;
+  glass.transmissive = glass.reflective = Color(1), glass.index = 1.5;
+  addObject(scene, Sphere{}, Affine::scaling({0.4, 0.4, 0.4}), glass);
+  const Settings plain{.width = 70, .spp = 4, .depth = 3, .threads = 1};
+  const std::vector<std::pair<const char*, std::function<void(Settings&)>>> ways{
+      {"plain", [](Settings&) {}},
+      {"noise target",
+       [](Settings& s) { s.integrator = IntegratorKind::path, s.spp = 40, s.noiseTarget = 0.1; }},
+      {"subdivide", [](Settings& s) { s.spp = 1, s.subdivide = 2; }},
+      {"light from lights", [](Settings& s) { s.integrator = IntegratorKind::bdpt; }},
+      {"chains", [](Settings& s) { s.integrator = IntegratorKind::mlt; }},
+  };
+  for (const auto& [name, change] : ways) {
+    Settings settings = plain;
+    change(settings);
+    Statistics whole;
+    const Picture reference = picture(scene, settings, &whole);
+    RenderResult result;
+    int parts = 0;
+    EXPECT_TRUE(sameBits(reference, pictureInParts(scene, settings, result, parts))) << name;
+    EXPECT_EQ(result.statistics, whole) << name;
+    EXPECT_EQ(result.end, End::finished) << name;
+    EXPECT_GT(parts, 5) << name;
   }
 }
 

@@ -421,6 +421,7 @@ void Workspace::update() {
       if (automatic && stale()) startRender();
     }
   }
+  render.advance();
   report(render.takeMessages());
   noteEnd();
 }

@@ -12,6 +12,8 @@ namespace {
 
 /// How much smaller the coarse pictures are: together they cost a twelfth of the real one.
 constexpr int kCoarse[] = {16, 8, 4};
+/// Seconds of tracing between two frames, where there is no thread.
+constexpr double kPart = 0.03;
 /// Smaller pictures than this show nothing.
 constexpr int kLeastPreview = 16;
 
@@ -46,6 +48,17 @@ std::optional<Settings> directLightOf(const Settings& settings) {
 
 }  // namespace
 
+struct BackgroundRender::Run {
+  enum class Stage { build, coarse, trace, denoise };
+
+  Request request;
+  double part = 0;  ///< seconds of tracing in a step
+  Stage stage = Stage::build;
+  std::shared_ptr<Session> session{};
+  std::size_t coarse = 0;  ///< small pictures that were made
+  std::optional<RenderResult> result{};
+};
+
 Picture enlarged(const Picture& small, Size size) {
   Picture large(size.width, size.height);
   for (int y = 0; y < size.height; ++y)
@@ -55,9 +68,9 @@ Picture enlarged(const Picture& small, Size size) {
   return large;
 }
 
-BackgroundRender::BackgroundRender() {
+BackgroundRender::BackgroundRender(Threads threads) {
   coarseJob_.patience = {};
-  thread_ = std::thread([this] { work(); });
+  thread_ = ownThread(threads, [this] { work(); });
 }
 
 BackgroundRender::~BackgroundRender() {
@@ -67,7 +80,7 @@ BackgroundRender::~BackgroundRender() {
     quit_ = true;
   }
   wake_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void BackgroundRender::start(std::shared_ptr<const Scene> scene, const Settings& settings, SceneAt sceneAt) {
@@ -154,39 +167,79 @@ std::vector<Message> BackgroundRender::takeMessages() {
 
 void BackgroundRender::work() {
   for (;;) {
-    Request request;
+    Run run;
     {
       std::unique_lock lock(mutex_);
       wake_.wait(lock, [&] { return quit_ || request_; });
       if (quit_) return;
-      request = *std::exchange(request_, {});
+      run.request = *std::exchange(request_, {});
+      run.part = kInfinity;
       coarseJob_.cancel = false;
     }
-    const auto fail = [&](std::vector<Message> messages) {
-      const std::lock_guard lock(mutex_);
-      messages_.insert(messages_.end(), messages.begin(), messages.end());
-      if (state_.number == request.number) state_.phase = Phase::failed;
-    };
-    try {
-      run(request);
-    } catch (const Error& error) {
-      fail(error.messages());
-    } catch (const std::bad_alloc&) {
-      fail({{.what = "out of memory", .hint = "choose a smaller width or a simpler scene"}});
-    } catch (const std::exception& error) {
-      fail({{.what = error.what()}});
+    while (step(run)) {
     }
   }
 }
 
-void BackgroundRender::run(const Request& request) {
+void BackgroundRender::advance() {
+  if (thread_.joinable()) return;
+  if (request_) {
+    run_ = std::make_unique<Run>();
+    run_->request = *std::exchange(request_, {});
+    run_->part = kPart;
+    coarseJob_.cancel = false;
+  }
+  if (run_ && !step(*run_)) run_.reset();
+}
+
+bool BackgroundRender::isCurrent(const Run& run) const {
+  return state_.number == run.request.number && state_.working();
+}
+
+void BackgroundRender::fail(const Run& run, const std::vector<Message>& messages) {
+  const std::lock_guard lock(mutex_);
+  messages_.insert(messages_.end(), messages.begin(), messages.end());
+  if (state_.number == run.request.number) state_.phase = Phase::failed;
+}
+
+bool BackgroundRender::step(Run& run) {
+  try {
+    return doStep(run);
+  } catch (const Error& error) {
+    fail(run, error.messages());
+  } catch (const std::bad_alloc&) {
+    fail(run, {{.what = "out of memory", .hint = "choose a smaller width or a simpler scene"}});
+  } catch (const std::exception& error) {
+    fail(run, {{.what = error.what()}});
+  }
+  return false;
+}
+
+bool BackgroundRender::doStep(Run& run) {
+  using Stage = Run::Stage;
+  switch (run.stage) {
+    case Stage::build: run.stage = Stage::coarse; return build(run);
+    case Stage::coarse:
+      if (coarsePass(run)) return true;
+      run.stage = Stage::trace;
+      return beginTracing(run);
+    case Stage::trace:
+      run.result = run.session->renderPart(run.part);
+      if (run.result) run.stage = Stage::denoise;
+      return true;
+    case Stage::denoise: denoise(run); return false;
+  }
+  return false;
+}
+
+bool BackgroundRender::build(Run& run) {
+  const Request& request = run.request;
   const auto session = std::make_shared<Session>();
   session->job().patience = {};  // who stops it wants to see something else
   session->open(*request.scene, request.settings, request.sceneAt);
-  const auto isCurrent = [&] { return state_.number == request.number && state_.working(); };
   {
     const std::lock_guard lock(mutex_);
-    if (!isCurrent()) return;
+    if (!isCurrent(run)) return false;
     building_ = session;
   }
   const auto noLonger = [this](const void*) {
@@ -194,52 +247,65 @@ void BackgroundRender::run(const Request& request) {
     building_.reset();
     early_ = {};
   };
-  {
-    const std::unique_ptr<const void, decltype(noLonger)> scope(this, noLonger);
-    session->build(built_.get(), [&] { showDirectLight(*session, request.number); });
-    built_ = session;
-    const std::lock_guard lock(mutex_);
-    const std::vector<Message>& warnings = session->messages().all();
-    messages_.insert(messages_.end(), warnings.begin(), warnings.end());
-    if (!isCurrent()) return;
-    // Until the first coarse pass is done the picture before shows through, if it fits and is of the same
-    // scene.
-    const Size size = session->size();
-    const bool another = session_ && session_->scene().file != session->scene().file;
-    if (another || coarse_.width != size.width || coarse_.height != size.height)
-      coarse_ = {};
-    else if (session_)
-      session_->film().copyDone(coarse_);
-    if (early_.width == size.width && early_.height == size.height) coarse_ = std::move(early_);
-    session_ = session;
-    denoised_.reset();
-    state_.phase = Phase::coarse;
-    state_.fraction = 0;
-  }
-  coarsePasses(session->moments(), session->settings(), session->size(), [&](Picture picture) {
-    const std::lock_guard lock(mutex_);
-    coarse_ = std::move(picture);
-    ++coarseVersion_;
-    return true;
+  const std::unique_ptr<const void, decltype(noLonger)> scope(this, noLonger);
+  session->build(built_.get(), [&] {
+    if (run.part == kInfinity) showDirectLight(*session, request.number);  // else nobody would see it in time
   });
-  {
-    const std::lock_guard lock(mutex_);
-    if (!isCurrent()) return;
-    state_.phase = Phase::tracing;
-    tracingBegan_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-  RenderResult result = session->renderPicture();
+  built_ = session;
+  const std::lock_guard lock(mutex_);
+  const std::vector<Message>& warnings = session->messages().all();
+  messages_.insert(messages_.end(), warnings.begin(), warnings.end());
+  if (!isCurrent(run)) return false;
+  // Until the first coarse pass is done the picture before shows through, if it fits and is of the same
+  // scene.
+  const Size size = session->size();
+  const bool another = session_ && session_->scene().file != session->scene().file;
+  if (another || coarse_.width != size.width || coarse_.height != size.height)
+    coarse_ = {};
+  else if (session_)
+    session_->film().copyDone(coarse_);
+  if (early_.width == size.width && early_.height == size.height) coarse_ = std::move(early_);
+  session_ = run.session = session;
+  denoised_.reset();
+  state_.phase = Phase::coarse;
+  state_.fraction = 0;
+  return true;
+}
+
+/// False after the last.
+bool BackgroundRender::coarsePass(Run& run) {
+  const Session& session = *run.session;
+  return coarsePass(run.coarse++, session.moments(), session.settings(), session.size(),
+                    [&](Picture picture) {
+                      const std::lock_guard lock(mutex_);
+                      coarse_ = std::move(picture);
+                      ++coarseVersion_;
+                      return true;
+                    });
+}
+
+bool BackgroundRender::beginTracing(const Run& run) {
+  const std::lock_guard lock(mutex_);
+  if (!isCurrent(run)) return false;
+  state_.phase = Phase::tracing;
+  tracingBegan_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  return true;
+}
+
+void BackgroundRender::denoise(Run& run) {
+  const std::shared_ptr<Session>& session = run.session;
+  RenderResult& result = *run.result;
   std::optional<Picture> without;
-  if (result.failure.empty() && request.settings.denoise) {
+  if (result.failure.empty() && run.request.settings.denoise) {
     {
       const std::lock_guard lock(mutex_);
-      if (state_.number == request.number && state_.working()) state_.phase = Phase::denoising;
+      if (isCurrent(run)) state_.phase = Phase::denoising;
     }
     without = denoised(session->film(), session->settings(), coarseJob_);
   }
   const std::lock_guard lock(mutex_);
   if (!result.failure.empty()) messages_.push_back({.what = result.failure});
-  if (state_.number == request.number && session_ == session) {
+  if (state_.number == run.request.number && session_ == session) {
     state_.elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
     state_.fraction = session->job().fraction();
     state_.phase = result.end == End::finished ? Phase::finished
@@ -250,17 +316,18 @@ void BackgroundRender::run(const Request& request) {
   }
 }
 
-void BackgroundRender::coarsePasses(std::span<const Moment> moments, const Settings& settings, Size size,
-                                    const std::function<bool(Picture)>& show) {
-  for (const int factor : kCoarse) {
-    if (size.width / factor < kLeastPreview) continue;
-    const Settings small = reduced(settings, size, factor);
-    Film film = makeFilm(small, small.width, small.height);
-    coarseJob_.done = 0;
-    coarseJob_.total = 0;
-    if (trace::render(moments, small, film, coarseJob_).end != End::finished) return;
-    if (!show(enlarged(film.picture(), size))) return;
-  }
+bool BackgroundRender::coarsePass(std::size_t index, std::span<const Moment> moments,
+                                  const Settings& settings, Size size,
+                                  const std::function<bool(Picture)>& show) {
+  if (index >= std::size(kCoarse)) return false;
+  const int factor = kCoarse[index];
+  if (size.width / factor < kLeastPreview) return true;
+  const Settings small = reduced(settings, size, factor);
+  Film film = makeFilm(small, small.width, small.height);
+  coarseJob_.done = 0;
+  coarseJob_.total = 0;
+  if (trace::render(moments, small, film, coarseJob_).end != End::finished) return false;
+  return show(enlarged(film.picture(), size));
 }
 
 void BackgroundRender::showDirectLight(const Session& session, std::uint64_t number) {
@@ -269,7 +336,7 @@ void BackgroundRender::showDirectLight(const Session& session, std::uint64_t num
   const std::unique_ptr<const Integrator> integrator = makeIntegrator(session.world(), *settings, coarseJob_);
   const Moment moment{&session.world(), integrator.get()};
   const Size size = session.size();
-  coarsePasses({&moment, 1}, *settings, size, [&](Picture picture) {
+  const auto show = [&](Picture picture) {
     const std::lock_guard lock(mutex_);
     if (state_.number != number || !state_.working()) return false;
     const bool fits =
@@ -278,7 +345,9 @@ void BackgroundRender::showDirectLight(const Session& session, std::uint64_t num
     early_ = std::move(picture);
     ++coarseVersion_;
     return true;
-  });
+  };
+  for (std::size_t i = 0; coarsePass(i, {&moment, 1}, *settings, size, show); ++i) {
+  }
 }
 
 }  // namespace trace

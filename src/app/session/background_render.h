@@ -2,7 +2,8 @@
 //
 // start() takes values and returns at once. A thread of its own builds the World, makes a few small pictures
 // that are enlarged until the tiles of the real one cover them, and renders that: the same bits as
-// everywhere. If the integrator has to prepare something first, such as photons, small pictures of the direct
+// everywhere. Where the system gives no threads, advance() does a part of that between two frames.
+// If the integrator has to prepare something first, such as photons, small pictures of the direct
 // light are shown meanwhile. A new start() stops what runs and takes its place; of the World it makes only
 // what has changed.
 #pragma once
@@ -20,6 +21,7 @@
 
 #include "app/session/remaining_time.h"
 #include "app/session/session.h"
+#include "base/own_thread.h"
 
 namespace trace {
 
@@ -36,7 +38,7 @@ class BackgroundRender {
     bool working() const { return phase != Phase::idle && phase < Phase::finished; }
   };
 
-  BackgroundRender();
+  explicit BackgroundRender(Threads threads = Threads::own);
   ~BackgroundRender();
   BackgroundRender(const BackgroundRender&) = delete;
   BackgroundRender& operator=(const BackgroundRender&) = delete;
@@ -44,6 +46,8 @@ class BackgroundRender {
   void start(std::shared_ptr<const Scene> scene, const Settings& settings, SceneAt sceneAt = {});
   /// Stops the render; finished parts stay.
   void stop();
+  /// Between two frames: without a thread does a step of the render, or some milliseconds of tracing.
+  void advance();
 
   State state();
   /// The scene, settings and World of the last picture of this scene file that was begun; null before. They
@@ -67,11 +71,21 @@ class BackgroundRender {
     std::uint64_t number = 0;
   };
 
+  struct Run;  // a request in work
+
   void work();
-  void run(const Request& request);
-  /// The small pictures; `show` takes each, and says whether it is still of use.
-  void coarsePasses(std::span<const Moment> moments, const Settings& settings, Size size,
-                    const std::function<bool(Picture)>& show);
+  /// Does the next step; false after the last one, or if that has no purpose any more. Does not throw.
+  bool step(Run& run);
+  bool doStep(Run& run);
+  bool build(Run& run);
+  bool coarsePass(Run& run);
+  bool beginTracing(const Run& run);
+  void denoise(Run& run);
+  bool isCurrent(const Run& run) const;
+  void fail(const Run& run, const std::vector<Message>& messages);
+  /// One of the small pictures; `show` takes it, and says whether it is still of use.
+  bool coarsePass(std::size_t index, std::span<const Moment> moments, const Settings& settings, Size size,
+                  const std::function<bool(Picture)>& show);
   void showDirectLight(const Session& session, std::uint64_t number);
 
   mutable std::mutex mutex_;
@@ -92,6 +106,7 @@ class BackgroundRender {
   std::optional<Picture> denoised_;  // denoised of session_, once it is rendered
   RenderResult result_;
   std::vector<Message> messages_;
+  std::unique_ptr<Run> run_;  // in work between frames
   std::thread thread_;
 };
 

@@ -1,6 +1,6 @@
 // A thread for answers that a window must not wait for. Only the newest of several jobs waits: a window asks
 // again whenever the mouse moves, and wants the last answer. Jobs that write files are all done instead, one
-// after the other, also when the task goes.
+// after the other, also when the task goes. Without threads take() does a job.
 #pragma once
 
 #include <chrono>
@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/files/read_scope.h"
+#include "base/own_thread.h"
 
 namespace trace {
 
@@ -27,14 +28,18 @@ class BackgroundTask {
  public:
   using Work = std::function<Answer(const Cancelled&)>;  ///< does not throw
 
-  explicit BackgroundTask(Jobs jobs = Jobs::newest) : all_(jobs == Jobs::all), thread_([this] { loop(); }) {}
+  explicit BackgroundTask(Jobs jobs = Jobs::newest, Threads threads = Threads::own)
+      : all_(jobs == Jobs::all), thread_(ownThread(threads, [this] { loop(); })) {}
   ~BackgroundTask() {
     {
       const std::lock_guard lock(mutex_);
       quit_ = true;
     }
     wake_.notify_all();
-    thread_.join();
+    if (thread_.joinable())
+      thread_.join();
+    else
+      loop();  // what is still to be done
   }
   BackgroundTask(const BackgroundTask&) = delete;
   BackgroundTask& operator=(const BackgroundTask&) = delete;
@@ -53,8 +58,9 @@ class BackgroundTask {
     wake_.notify_all();
   }
 
-  /// The last answer, or the first of all, once.
+  /// The last answer, or the first of all, once. Without threads does a job that waits.
   std::optional<Answer> take() {
+    if (!thread_.joinable()) doNext();
     const std::lock_guard lock(mutex_);
     if (answers_.empty()) return {};
     std::optional<Answer> answer(std::move(answers_.front()));
@@ -66,6 +72,11 @@ class BackgroundTask {
   bool busy() const {
     const std::lock_guard lock(mutex_);
     return running_ || !waiting_.empty();
+  }
+  /// take() has an answer, or without threads makes one.
+  bool hasNews() const {
+    const std::lock_guard lock(mutex_);
+    return !answers_.empty() || (!thread_.joinable() && !waiting_.empty());
   }
   /// There is an answer to come or to be taken.
   bool pending() const {
@@ -80,29 +91,37 @@ class BackgroundTask {
 
   void loop() {
     for (;;) {
-      Work work;
       {
         std::unique_lock lock(mutex_);
         running_ = false;
         wake_.wait(lock, [&] { return quit_ || !waiting_.empty(); });
         if (waiting_.empty() || (quit_ && !all_)) return;
-        work = std::move(waiting_.front());
-        waiting_.pop_front();
-        running_ = true;
       }
-      const Clock::time_point began = Clock::now();
-      const auto cancelled = [&] {
-        if (all_) return false;
-        const std::lock_guard lock(mutex_);
-        return quit_ || (!waiting_.empty() && Clock::now() - began > kPatience);
-      };
-      Answer answer = work(cancelled);
-      if (cancelled()) continue;
-      const std::lock_guard lock(mutex_);
-      if (!all_) answers_.clear();
-      answers_.push_back(std::move(answer));
-      running_ = false;
+      doNext();
     }
+  }
+
+  void doNext() {
+    Work work;
+    {
+      const std::lock_guard lock(mutex_);
+      if (waiting_.empty()) return;  // another one took its place
+      work = std::move(waiting_.front());
+      waiting_.pop_front();
+      running_ = true;
+    }
+    const Clock::time_point began = Clock::now();
+    const auto cancelled = [&] {
+      if (all_) return false;
+      const std::lock_guard lock(mutex_);
+      return quit_ || (!waiting_.empty() && Clock::now() - began > kPatience);
+    };
+    Answer answer = work(cancelled);
+    if (cancelled()) return;
+    const std::lock_guard lock(mutex_);
+    if (!all_) answers_.clear();
+    answers_.push_back(std::move(answer));
+    running_ = false;
   }
 
   const bool all_;

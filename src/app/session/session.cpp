@@ -22,7 +22,6 @@
 #include "scene/quality.h"
 
 namespace trace {
-namespace {
 
 /// Measures a step from its construction to stop().
 class Stopwatch {
@@ -36,6 +35,8 @@ class Stopwatch {
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
   double cpu_ = os::cpuSeconds();
 };
+
+namespace {
 
 /// While rendering and saving, a pixel lives in the film, in a copy of one of its pictures, toned or not, and
 /// in the encoder's buffers.
@@ -243,11 +244,23 @@ void Session::buildMoments() {
                    "--time chooses another moment");
 }
 
-RenderResult Session::renderPicture() {
+struct Session::Tracing {
   const Stopwatch watch;
+  RenderInParts render;
+};
+
+Session::Session() = default;
+Session::~Session() = default;
+
+RenderResult Session::renderPicture() { return *renderPart(kInfinity); }
+
+std::optional<RenderResult> Session::renderPart(double seconds) {
   if (budgetOfThread.budget) budgetOfThread.budget->letFinish();
-  RenderResult result = trace::render(moments_, settings_, *film_, job_);
-  phases_.push_back(watch.stop("trace"));
+  if (!tracing_) tracing_.reset(new Tracing{{}, {moments_, settings_, *film_, job_}});
+  std::optional<RenderResult> result = tracing_->render.next(seconds);
+  if (!result) return {};
+  phases_.push_back(tracing_->watch.stop("trace"));
+  tracing_.reset();
   return result;
 }
 

@@ -45,6 +45,9 @@ using SceneAt = std::function<Scene(Real time)>;
 
 class Session {
  public:
+  Session();
+  ~Session();
+
   /// Reads the scene and settles the settings: defaults < file < choices.
   /// Throws Error; with `strict`, warnings are errors too.
   void open(const std::string& file, std::span<const Choice> choices, bool strict = false);
@@ -79,6 +82,8 @@ class Session {
 
   /// Traces the picture; blocks. Others may watch and stop it through job() and picture().
   RenderResult renderPicture();
+  /// Traces a part of it, for about so many seconds; nothing until it ends.
+  std::optional<RenderResult> renderPart(double seconds);
   Job& job() { return job_; }
   const Job& job() const { return job_; }
 
@@ -140,6 +145,8 @@ class Session {
   std::list<std::unique_ptr<const Integrator>> integrators_;
   std::unique_ptr<Film> film_;
   Job job_;
+  struct Tracing;
+  std::unique_ptr<Tracing> tracing_;  // begun, and not at its end
   std::vector<Phase> phases_;
   std::optional<Real> measuredExposure_;  // nothing unless the settings asked
 };

@@ -28,6 +28,11 @@ const Arrangement& firstArrangement(double charactersAcross) {
   return kArrangements[charactersAcross < kRoom ? 0 : 1];
 }
 
+bool hasOneColumn(double charactersAcross, double width, double height) {
+  constexpr double kTwoColumns = 64;
+  return charactersAcross < kTwoColumns && height > width;
+}
+
 DockSizes dockSizes(const DockShares& shares, const DocksInUse& used, double width, double height,
                     double letter, double drawer) {
   DockSizes sizes;

@@ -11,6 +11,7 @@ enum class Dock { left, centre, right, bottom, hidden };
 /// Shares of the window that docks may have.
 struct DockShares {
   double left = 0.23, right = 0.4, bottom = 0.17;
+  double upper = 0.55;  ///< share of the centre's dock where all are below each other
   static constexpr double kLeast = 0.12, kMost = 0.6;
 };
 
@@ -28,6 +29,10 @@ struct Arrangement {
 std::span<const Arrangement> arrangements();
 /// The arrangement for a first start: Build, if its panels have room in so many characters side by side.
 const Arrangement& firstArrangement(double charactersAcross);
+
+/// A window that is narrow and tall, as that of a phone, has one column: the picture, and below it the panels
+/// that are beside it elsewhere.
+bool hasOneColumn(double charactersAcross, double width, double height);
 
 /// The docks that hold a panel.
 struct DocksInUse {

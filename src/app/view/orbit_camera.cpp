@@ -11,7 +11,7 @@ namespace {
 
 constexpr Real kSteepest = 1.55;              // radians: not quite to the pole
 constexpr Real kBeside = 0.75, kAbove = 0.3;  // radians from the scene's camera, at first
-constexpr Real kSpare = 1.15;                // around what should be in sight
+constexpr Real kRoomAround = 1.15;            // around what should be in sight
 
 }  // namespace
 
@@ -53,14 +53,14 @@ OrbitCamera::OrbitCamera() : height_(2 * math::tan(kFieldOfView * kPi / 360)) {}
 void OrbitCamera::lookAt(const Box3& target) {
   target_ = target.center();
   const Real slope = height_ / 2;
-  distance_ = std::max(1e-30, kSpare * length(target.size()) / 2 * math::hypot(1, slope) / slope);
+  distance_ = std::max(1e-30, kRoomAround * length(target.size()) / 2 * math::hypot(1, slope) / slope);
 }
 
 OrbitCamera::OrbitCamera(const Box3& target, const Camera& camera) : OrbitCamera() {
   Box3 all = target;
   all.extend(camera.position);
   target_ = all.center();
-  distance_ = std::max(1e-30, kSpare * length(all.size()) / 2 / math::sin(kFieldOfView * kPi / 360));
+  distance_ = std::max(1e-30, kRoomAround * length(all.size()) / 2 / math::sin(kFieldOfView * kPi / 360));
   face(normalize(-camera.viewdir), camera.updir);
   azimuth_ += kBeside;
   elevation_ = std::clamp(elevation_ + kAbove, -kSteepest, kSteepest);

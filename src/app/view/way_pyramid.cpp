@@ -8,6 +8,7 @@
 
 #include "app/editing/workspace.h"
 #include "base/error.h"
+#include "base/own_thread.h"
 #include "scene/options.h"
 
 namespace trace {
@@ -37,19 +38,20 @@ bool samePictures(const PyramidPlan& a, const PyramidPlan& b) {
   return a.session->scene() == b.session->scene() && !differInPicture(pyramidSettings(a), pyramidSettings(b));
 }
 
-/// Cancels a job as soon as its answer is not wanted, as long as this lives.
+/// Cancels a job as soon as its answer is not wanted, as long as this lives. Without threads nobody can say
+/// so.
 class CancelWatch {
  public:
   CancelWatch(Job& job, const Cancelled& cancelled)
-      : thread_([this, &job, cancelled] {
+      : thread_(ownThread(Threads::own, [this, &job, cancelled] {
           while (cancelled && !over_ && !job.cancel) {
             if (cancelled()) job.cancel = true;
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
           }
-        }) {}
+        })) {}
   ~CancelWatch() {
     over_ = true;
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
   }
   CancelWatch(const CancelWatch&) = delete;
   CancelWatch& operator=(const CancelWatch&) = delete;

@@ -51,6 +51,8 @@ Real alphaOf(const CameraRay& camera, bool weighsHoles, Tracer& tracer) {
   return 1 - through * (1 - camera.ink);
 }
 
+}  // namespace
+
 /// Takes the samples of tiles; what a worker does.
 class TileRenderer {
  public:
@@ -288,82 +290,141 @@ class TileRenderer {
   std::uint64_t badCount_ = 0;
 };
 
-}  // namespace
-
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job) {
   const auto integrator = makeIntegrator(world, settings, job);
   return render(std::array{Moment{&world, integrator.get()}}, settings, film, job);
 }
 
 RenderResult render(std::span<const Moment> moments, const Settings& settings, Film& film, Job& job) {
-  using Clock = std::chrono::steady_clock;
-  Budget clock(budgetOfThread.budget);
-  if (!budgetOfThread.budget) clock.limitTime(settings.timeLimit);
-  std::atomic<bool> late{false};
-  // Looks at the time in the midst of a tile, of which one can take hours. Each worker has a copy.
-  const auto interrupt = [&, stopping = std::optional<Clock::time_point>()]() mutable {
-    if (clock.timeIsOver() && !job.cancel.exchange(true)) late = true;
-    if (!job.cancel) return;
-    const Clock::time_point now = Clock::now();
-    if (!stopping) stopping = now;
-    if (now - *stopping >= job.patience) throw GivenUp{};
-  };
+  return *RenderInParts(moments, settings, film, job).next(kInfinity);
+}
 
-  const int threads = settings.threads > 0 ? settings.threads : hardwareThreads();
-  std::vector<std::unique_ptr<TileRenderer>> workers(static_cast<std::size_t>(threads));
-  const std::vector<Wave>& waves = film.waves();
-  std::vector<std::int64_t> tiles;  // own ones, and where pixels stop for an error all: lookBeside()
-  for (std::int64_t i = 0; i < film.tiles(); ++i)
-    if (film.owns(i) || film.noiseTarget() > 0) tiles.push_back(i);
-  std::size_t firstWave = 0;  // first wave of the current chunks
-  const auto waveOf = [&](std::int64_t chunk) {
-    return firstWave + static_cast<std::size_t>(chunk / std::ssize(tiles));
-  };
-  std::optional<Metropolis> chains;
-  const auto takeChunk = [&](std::int64_t chunk, int worker) {
-    const std::int64_t tile = tiles[static_cast<std::size_t>(chunk % std::ssize(tiles))];
-    const std::size_t wave = waveOf(chunk);
-    if (film.has(tile, wave)) return;  // since before
+struct RenderInParts::State {
+  using Clock = std::chrono::steady_clock;
+
+  State(std::span<const Moment> theMoments, const Settings& theSettings, Film& theFilm, Job& theJob)
+      : moments(theMoments), settings(theSettings), film(theFilm), job(theJob), clock(budgetOfThread.budget) {
+    if (!budgetOfThread.budget) clock.limitTime(settings.timeLimit);
+    workers.resize(static_cast<std::size_t>(settings.threads > 0 ? settings.threads : hardwareThreads()));
+    for (std::int64_t i = 0; i < film.tiles(); ++i)
+      if (film.owns(i) || film.noiseTarget() > 0) tiles.push_back(i);
+  }
+
+  /// Looks at the time in the midst of a tile, of which one can take hours. Each worker has a copy.
+  auto interrupt() {
+    return [this, stopping = std::optional<Clock::time_point>()]() mutable {
+      if (clock.timeIsOver() && !job.cancel.exchange(true)) late = true;
+      if (!job.cancel) return;
+      const Clock::time_point now = Clock::now();
+      if (!stopping) stopping = now;
+      if (now - *stopping >= job.patience) throw GivenUp{};
+    };
+  }
+
+  /// Takes the samples of a tile and a wave, unless the film has them since before. Throws GivenUp at the end
+  /// of a part.
+  void takeChunk(std::int64_t tile, std::size_t wave, int worker) {
+    if (film.has(tile, wave)) return;
+    if (partIsOver()) throw GivenUp{};
     auto& renderer = workers[static_cast<std::size_t>(worker)];
     if (!renderer)
       renderer =
-          std::make_unique<TileRenderer>(moments, settings, film, chains ? &*chains : nullptr, interrupt);
-    film.add(tile, wave, renderer->take(tile, waves[wave]));
-  };
-  const ChunkSizes samples{std::ssize(tiles) * waves.back().end,
-                           [&](std::int64_t chunk) { return waves[waveOf(chunk)].count(); }};
-  RenderResult result;
-  bool outOfMemory = false;
-  try {
-    if (film.takesSplats() && hasTrait(settings, Trait::byChains))
-      chains.emplace(moments, settings, Size{film.width(), film.height()}, job, interrupt);
-    if (chains) result.brightnessError = chains->brightnessError();
+          std::make_unique<TileRenderer>(moments, settings, film, chains ? &*chains : nullptr, interrupt());
+    film.add(tile, wave, renderer->take(tile, film.waves()[wave]));
+    progressed = true;
+  }
+
+  bool partIsOver() {
+    if (std::isfinite(seconds) && progressed &&
+        std::chrono::duration<double>(Clock::now() - partBegan).count() >= seconds)
+      paused = true;
+    return paused;
+  }
+
+  /// All waves that the film lacks, or those of a part.
+  void takeWaves() {
+    const std::vector<Wave>& waves = film.waves();
+    std::size_t firstWave = 0;  // first wave of the current chunks
+    const auto waveOf = [&](std::int64_t chunk) {
+      return firstWave + static_cast<std::size_t>(chunk / std::ssize(tiles));
+    };
+    const ChunkSizes samples{std::ssize(tiles) * waves.back().end,
+                             [&](std::int64_t chunk) { return waves[waveOf(chunk)].count(); }};
+    if (!chains && film.takesSplats() && hasTrait(settings, Trait::byChains))
+      chains.emplace(moments, settings, Size{film.width(), film.height()}, job, interrupt());
     job.before = film.samplesDone();
+    if (!doneAtFirst) doneAtFirst = job.done.load();
+    job.done = *doneAtFirst;  // parts count what the film has once more
     const std::ptrdiff_t together = film.adaptive() ? 1 : std::ssize(waves);
-    for (; firstWave < waves.size() && !job.cancel; firstWave += static_cast<std::size_t>(together))
-      parallelChunks(std::ssize(tiles) * together, threads, job, takeChunk, samples);
+    for (; firstWave < waves.size() && !job.cancel && !paused;
+         firstWave += static_cast<std::size_t>(together))
+      parallelChunks(
+          std::ssize(tiles) * together, static_cast<int>(workers.size()), job,
+          [&](std::int64_t chunk, int worker) {
+            takeChunk(tiles[static_cast<std::size_t>(chunk % std::ssize(tiles))], waveOf(chunk), worker);
+          },
+          samples);
+  }
+
+  RenderResult result() {
+    RenderResult result;
+    result.failure = failure;
+    if (chains) result.brightnessError = chains->brightnessError();
+    for (const auto& renderer : workers) {
+      if (!renderer) continue;
+      result.statistics += renderer->statistics();
+      result.badSamples.insert(result.badSamples.end(), renderer->badSamples().begin(),
+                               renderer->badSamples().end());
+    }
+    std::sort(result.badSamples.begin(), result.badSamples.end(), [](const BadSample& a, const BadSample& b) {
+      return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
+    });
+    result.badSamples.resize(std::min(result.badSamples.size(), kMostBadSamples));
+    result.end = film.complete()    ? End::finished
+                 : outOfMemory      ? End::outOfMemory
+                 : !failure.empty() ? End::failed
+                 : late             ? End::timeLimit
+                                    : End::cancelled;
+    return result;
+  }
+
+  const std::span<const Moment> moments;
+  const Settings settings;
+  Film& film;
+  Job& job;
+  Budget clock;
+  std::atomic<bool> late{false};
+  std::vector<std::int64_t> tiles;  // own ones, and where pixels stop for an error all: lookBeside()
+  std::optional<Metropolis> chains;
+  std::vector<std::unique_ptr<TileRenderer>> workers;
+  std::optional<std::int64_t> doneAtFirst;  // count of the job before the first part
+  double seconds = kInfinity;               // that the part may take
+  Clock::time_point partBegan;
+  std::atomic<bool> progressed{false}, paused{false};  // in this part
+  std::string failure;
+  bool outOfMemory = false;
+};
+
+RenderInParts::RenderInParts(std::span<const Moment> moments, const Settings& settings, Film& film, Job& job)
+    : state_(std::make_unique<State>(moments, settings, film, job)) {}
+
+RenderInParts::~RenderInParts() = default;
+
+std::optional<RenderResult> RenderInParts::next(double seconds) {
+  State& state = *state_;
+  state.seconds = seconds;
+  state.partBegan = State::Clock::now();
+  state.progressed = state.paused = false;
+  try {
+    state.takeWaves();
   } catch (const std::bad_alloc&) {
-    outOfMemory = true;
-    result.failure = "out of memory";
+    state.outOfMemory = true;
+    state.failure = "out of memory";
   } catch (const std::exception& error) {
-    result.failure = error.what();
+    state.failure = error.what();
   }
-  for (const auto& renderer : workers) {
-    if (!renderer) continue;
-    result.statistics += renderer->statistics();
-    result.badSamples.insert(result.badSamples.end(), renderer->badSamples().begin(),
-                             renderer->badSamples().end());
-  }
-  std::sort(result.badSamples.begin(), result.badSamples.end(), [](const BadSample& a, const BadSample& b) {
-    return std::tie(a.y, a.x, a.sample) < std::tie(b.y, b.x, b.sample);
-  });
-  result.badSamples.resize(std::min(result.badSamples.size(), kMostBadSamples));
-  result.end = film.complete()           ? End::finished
-               : outOfMemory             ? End::outOfMemory
-               : !result.failure.empty() ? End::failed
-               : late                    ? End::timeLimit
-                                         : End::cancelled;
-  return result;
+  if (state.paused && state.failure.empty() && !state.job.cancel) return {};
+  return state.result();
 }
 
 }  // namespace trace

@@ -1,6 +1,8 @@
 // World -> Film: all camera rays, by any number of threads, in fixed tiles and waves of samples.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,6 +45,24 @@ struct Moment;
 /// were begun are finished, unless they take longer than the job's patience. What is finished survives a
 /// failure too. The same bits for any number of threads.
 RenderResult render(std::span<const Moment> moments, const Settings& settings, Film& film, Job& job);
+
+/// A render in parts, for a window without threads, which draws frames between them. The moments, the film
+/// and the job have to live as long as this.
+class RenderInParts {
+ public:
+  RenderInParts(std::span<const Moment> moments, const Settings& settings, Film& film, Job& job);
+  ~RenderInParts();
+  RenderInParts(const RenderInParts&) = delete;
+  RenderInParts& operator=(const RenderInParts&) = delete;
+
+  /// Continues for about so many seconds, at least by one wave of a tile. Nothing until the render ends; then
+  /// its result, of all parts together.
+  std::optional<RenderResult> next(double seconds);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 /// Renders one moment, with the integrator of the settings, made for it.
 RenderResult render(const World& world, const Settings& settings, Film& film, Job& job);
 

@@ -23,7 +23,7 @@ class Previews {
   /// One is being made.
   bool busy() const { return task_.busy(); }
   /// One was made, and is to be shown.
-  bool news() const { return task_.pending() && !task_.busy(); }
+  bool news() const { return task_.hasNews(); }
 
  private:
   struct Made {

@@ -1,4 +1,4 @@
-#include "app/editing/input_queue.h"
+#include "app/input/input_queue.h"
 
 #include <algorithm>
 
