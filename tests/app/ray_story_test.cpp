@@ -122,5 +122,27 @@ TEST(RayStory, SwatchesAndSentencesCountAutomaticExposureOnce) {
   EXPECT_GT(maxComponent(shown), 0.3);
 }
 
+std::size_t trianglesOf(const Drawing& drawing, const Color& color) {
+  std::size_t count = 0;
+  for (const Drawn& thing : drawing.things)
+    if (const auto* triangle = std::get_if<DrawnTriangle>(&thing)) count += triangle->color == color;
+  return count;
+}
+
+TEST(RayStory, ShowsLightsWithoutAPlaceAndThoseBeyondTheView) {
+  Scene scene = mirrorAndBall();
+  scene.lights.push_back({DirectionalLight{.direction = {1, -1, 0}, .color = {0, 1, 0}}, {}});
+  scene.lights.push_back({PointLight{.position = {50, 0, 0}, .color = {1, 0, 0}}, {}});
+  scene.lights.push_back({PointLight{.position = {0, 9, 30}, .color = {0, 0, 1}}, {}});
+  const auto session = sessionOf(scene, {});
+  const Drawing drawing = RayStory(tracePixel(session, 20, 20, 0), scene.camera).after(0);
+  EXPECT_EQ(trianglesOf(drawing, {0, 0.8, 0}), 3u) << "arrows of the sun";
+  EXPECT_EQ(trianglesOf(drawing, {0.8, 0, 0}), 1u) << "to the right";
+  EXPECT_EQ(trianglesOf(drawing, {0, 0, 0.8}), 1u) << "behind the eye";
+  for (const Drawn& thing : drawing.things)
+    if (const auto* disk = std::get_if<DrawnDisk>(&thing); disk && disk->color == Color(0.8, 0, 0))
+      EXPECT_GT(disk->center.x, 0.9 * 600 * 0.8) << "at the right edge";
+}
+
 }  // namespace
 }  // namespace trace::test

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/view/magnifier.h"
 #include "app/view/room.h"
 #include "app/view/scene_model.h"
 #include "math/elementary.h"
@@ -35,6 +36,19 @@ std::optional<Point2> Panel::placeOf(const Vec3& point) const {
   const Point2 at = place(*seen);
   const bool within = at.x > at_.x && at.x < at_.x + width_ && at.y > at_.y && at.y < at_.y + height_;
   return within ? std::optional(at) : std::nullopt;
+}
+
+std::optional<Point2> Panel::toward(const Vec3& point) const {
+  const Vec3 p = linear(toPlane_, point - eye_);
+  const Point2 way{p.x * width_, -p.y * height_};
+  const double far = math::hypot(way.x, way.y);
+  if (placeOf(point) || !(far > 0) || !std::isfinite(far)) return {};
+  return Point2{way.x / far, way.y / far};
+}
+
+Point2 Panel::edgeAt(const Point2& toward, double margin) const {
+  const Vec2 mark = edgeMark({width_, height_}, {toward.x, toward.y}, margin);
+  return {at_.x + mark.x, at_.y + mark.y};
 }
 
 void Panel::disk(Drawing& drawing, const Vec3& point, double radius, const Color& color) const {

@@ -83,7 +83,10 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
     ImGui::SameLine();
     ImGui::SetCursorPosY(line);
     ImGui::AlignTextToFramePadding();
-    const char* ofWhat = studio.rays.pyramid.alone ? "all ways  " : "";
+    std::string ofWhat = studio.rays.pyramid.alone ? "all ways  " : "";
+    if (const PlaneView& plane = view.planeMade;
+        ofWhat.empty() && view.showsPlane() && sameSize(plane.values, view.shown))
+      ofWhat = plane.scale.text(plane.values.at(x, y).r) + "   ";
     std::string text = ofWhat + pixelText(view.shown.at(x, y), c, rounding);
     if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)
       text.resize(text.find("   ("));  // the levels

@@ -78,7 +78,7 @@ std::optional<std::string> editInteger(const Option& option, const std::string& 
   int number = std::stoi(value);
   NumberLook look{option.least, option.most, "%.0f" + unitSuffix(option, number)};
   look.name = option.name;
-  look.leastWord = leastWordFor(option);
+  look.words.least = leastWordFor(option);
   look.counted = option.most <= kMostSlider;
   constexpr float kPixels = 12;  // that the mouse moves for one step
   look.speed = look.counted ? std::max(1 / kPixels, static_cast<float>(number) / 200)
@@ -92,7 +92,7 @@ std::optional<std::string> editReal(const Option& option, const std::string& val
   const double range = option.most - option.least;
   NumberLook look{option.least, option.most, "%.6g" + unitSuffix(option, number)};
   look.name = option.name;
-  look.leastWord = leastWordFor(option);
+  look.words.least = leastWordFor(option);
   if (range <= kMostSlider)
     look.logarithmic = range > 10;
   else
