@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/session/session.h"
+#include "geometry/shapes/solids/plane.h"
 #include "geometry/shapes/solids/sphere.h"
 #include "image/codecs/codec_parts.h"
 #include "image/development/development.h"
@@ -139,9 +140,27 @@ TEST(RayStory, ShowsLightsWithoutAPlaceAndThoseBeyondTheView) {
   EXPECT_EQ(trianglesOf(drawing, {0, 0.8, 0}), 3u) << "arrows of the sun";
   EXPECT_EQ(trianglesOf(drawing, {0.8, 0, 0}), 1u) << "to the right";
   EXPECT_EQ(trianglesOf(drawing, {0, 0, 0.8}), 1u) << "behind the eye";
-  for (const Drawn& thing : drawing.things)
-    if (const auto* disk = std::get_if<DrawnDisk>(&thing); disk && disk->color == Color(0.8, 0, 0))
+  for (const Drawn& thing : drawing.things) {
+    const auto* disk = std::get_if<DrawnDisk>(&thing);
+    if (disk && disk->color == Color(0.8, 0, 0))
       EXPECT_GT(disk->center.x, 0.9 * 600 * 0.8) << "at the right edge";
+  }
+}
+
+TEST(RayStory, CutsAnInfiniteFloorOffAsTheWindowDoes) {
+  Scene scene = mirrorAndBall();
+  addObject(scene, Plane{}, Affine::translation({0, -1, 0}) * Affine::rotation({1, 0, 0}, kPi / 2), {});
+  const auto session = sessionOf(scene, {});
+  Camera above = scene.camera;
+  above.position = {0, 900, 0}, above.viewdir = {0, -1, 0}, above.updir = {0, 0, -1};
+  const Drawing drawing = RayStory(tracePixel(session, 20, 20, 0), above).after(0);
+  for (const Drawn& thing : drawing.things) {
+    const auto* picture = std::get_if<DrawnPicture>(&thing);
+    if (!picture || picture->picture.width < 100) continue;
+    const Picture& view = picture->picture;
+    EXPECT_GT(view.at(2, 2).b, 0.9) << "nothing";
+    EXPECT_LT(view.at(view.width / 2, view.height / 2).b, 0.9);
+  }
 }
 
 }  // namespace

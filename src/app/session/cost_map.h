@@ -1,4 +1,4 @@
-// What a sample of each pixel costs: how many boxes of hierarchies and surfaces its rays are tested against.
+// The cost of a sample of each pixel: how many boxes of hierarchies and surfaces its rays are tested against.
 // It is measured beside the render, which does not count for pixels.
 #pragma once
 

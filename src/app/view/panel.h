@@ -54,6 +54,7 @@ class Panel {
 Settings plainView(Settings settings);
 
 /// The surfaces in the colours of their materials, glass as clear as it is, otherwise as sketch().
+/// Infinite objects are cut off around the others, as in the window.
 DrawnPicture colouredSketch(const World& world, const Scene& scene, const std::vector<std::uint32_t>& walls,
                             const Vec3& inside, const Point2& at, double width, double height);
 

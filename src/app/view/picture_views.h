@@ -60,7 +60,7 @@ inline constexpr const char* kPlaneNames[] = {"Picture", "Samples", "Noise", "De
 /// Which value each colour of a heat map stands for.
 struct ColourScale {
   double white = 0;          ///< the value that is white; 0: no scale
-  bool logarithmic = false;  ///< of 1 + value
+  bool logarithmic = false;  ///< logarithm of 1 + value
   std::string_view unit{};
 
   /// The place of a value, from 0 to 1, and the reverse.

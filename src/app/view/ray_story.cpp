@@ -226,10 +226,13 @@ void RayStory::addCamera(Drawing& drawing, const Panel& panel) const {
     const Real x = i == 0 || i == 3 ? -0.5 : 0.5, y = i < 2 ? -0.5 : 0.5;
     corners[i] = own.eye + (own.look + own.right * x + own.up * y) * reach;
   }
-  for (std::size_t i = 0; i < 4; ++i) {
-    panel.line(drawing, own.eye, corners[i], kInk, 1, false);
-    panel.line(drawing, corners[i], corners[(i + 1) % 4], kInk, 1, false);
-  }
+  for (const bool rim : {true, false})  // seen on dark surfaces, too
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Color color = rim ? Color(1) : kInk;
+      const double width = rim ? 3.5 : 1.5;
+      panel.line(drawing, own.eye, corners[i], color, width, false);
+      panel.line(drawing, corners[i], corners[(i + 1) % 4], color, width, false);
+    }
 }
 
 void RayStory::addTree(Drawing& drawing, int rays) const {

@@ -111,7 +111,7 @@ void drawBar(Studio& studio) {
     return;
   }
   choosePlane(studio);
-  if (studio.workspace.reference() || !isShown(studio, "Rays")) drawComparing(view);
+  if (comparesPictures(studio)) drawComparing(view);
   if (!studio.workspace.reference()) {
     ImGui::SameLine();
     roomFor(ImGui::CalcTextSize("Compare...").x + 2 * ImGui::GetStyle().FramePadding.x);

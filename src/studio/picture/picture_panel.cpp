@@ -136,6 +136,14 @@ FrameArea frameOf(PictureView& view, ImVec2 canvas, ImVec2 area, int width, int 
           size};
 }
 
+/// The largest area of that shape in the middle of another.
+FrameArea inside(const FrameArea& frame, int width, int height) {
+  const float zoom =
+      std::min(frame.size.x / static_cast<float>(width), frame.size.y / static_cast<float>(height));
+  const ImVec2 size{static_cast<float>(width) * zoom, static_cast<float>(height) * zoom};
+  return {{frame.low.x + (frame.size.x - size.x) / 2, frame.low.y + (frame.size.y - size.y) / 2}, size};
+}
+
 void pictureIn(const FrameArea& frame, const Texture& texture) {
   ImGui::GetWindowDrawList()->AddImage(texture.id(), frame.low,
                                        {frame.low.x + frame.size.x, frame.low.y + frame.size.y});
@@ -158,7 +166,7 @@ float caption(ImVec2 at, const char* text, float most) {
 void numbersInPixels(const Studio& studio, const FrameArea& frame, ImVec2 low, ImVec2 high,
                      const Picture& picture, int channels = 3) {
   const float line = ImGui::GetTextLineHeight(), zoom = studio.picture.zoom;
-  const float half = static_cast<float>(channels) / 2;  // of the lines
+  const float half = static_cast<float>(channels) / 2;  // half the number of lines
   const ImVec2 digits = ImGui::CalcTextSize("0.000");
   if (zoom < digits.x + 6 || zoom < 3 * line + 4 || picture.width == 0) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -308,7 +316,11 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   const auto& reference = studio.workspace.reference();
   const int width = view.shown.width, height = view.shown.height;
   const InPlaceOfPicture other = inPlaceOfPicture(studio);
-  const View mode = reference && other.caption.empty() ? view.view : View::picture;
+  const bool comparable = reference && sameSize(view.reference, view.shown);
+  const bool differs = view.view == View::difference || view.view == View::falseColour;
+  const bool together = differs || view.view == View::swipe || view.view == View::sideBySide;
+  const bool refused = reference && !comparable && together && other.caption.empty();
+  const View mode = reference && other.caption.empty() && !refused ? view.view : View::picture;
   const bool two = mode == View::sideBySide;
   const ImVec2 part{two ? std::max(1.0f, (area.x - kGap) / 2) : area.x, area.y};
   const FrameArea frame = frameOf(view, canvas, part, width, height);
@@ -321,40 +333,41 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     list.PopClipRect();
   };
   const ImVec2 end{canvas.x + area.x, canvas.y + area.y};
-  const bool comparable = reference && sameSize(view.reference, view.shown);
-  const bool differs = mode == View::difference || mode == View::falseColour;
   if (mode == View::picture)
     clipped(canvas, end, frame, other.texture ? *other.texture : view.pictureTexture);
-  if (mode == View::reference) clipped(canvas, end, frame, view.referenceTexture);
+  if (mode == View::reference)
+    clipped(canvas, end, comparable ? frame : inside(frame, reference->width, reference->height),
+            view.referenceTexture);
   if (two) {
     clipped(canvas, {canvas.x + part.x, end.y}, frame, view.pictureTexture);
     clipped({canvas.x + part.x + kGap, canvas.y}, end, second, view.referenceTexture);
   }
+  float line = end.x;  // between picture and reference
   if (mode == View::swipe) {
     const float left = std::max(frame.low.x, canvas.x), right = std::min(frame.low.x + frame.size.x, end.x);
-    const float line = std::round(left + (right - left) * view.swipe);
+    line = std::round(left + (right - left) * view.swipe);
     clipped(canvas, {line, end.y}, frame, view.pictureTexture);
     clipped({line, canvas.y}, end, frame, view.referenceTexture);
     list.AddLine({line, canvas.y}, {line, end.y}, ImGui::GetColorU32(studio.palette().accent), 2);
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0) && right > left)
       view.swipe = std::clamp((ImGui::GetIO().MousePos.x - left) / (right - left), 0.0f, 1.0f);
   }
-  if (differs && comparable) clipped(canvas, end, frame, view.differenceTexture);
+  if (differs && mode != View::picture) clipped(canvas, end, frame, view.differenceTexture);
   const ImVec2 corner{canvas.x + 8, canvas.y + 8};
   float clear = canvas.y;  // below the caption
   if (!other.caption.empty()) {
     clear = caption(corner, other.caption.c_str(), area.x - 16);
     landmark("caption");
-  } else if (differs && !comparable) {
-    caption(corner,
-            ("not compared: the reference has another shape, " + std::to_string(reference->width) + " x " +
-             std::to_string(reference->height) + "; the picture has " + std::to_string(width) + " x " +
-             std::to_string(height))
-                .c_str(),
-            area.x - 16);
+  } else if (refused) {
+    clear = caption(corner,
+                    ("not compared: the reference has another shape, " + std::to_string(reference->width) +
+                     " x " + std::to_string(reference->height) + "; the picture has " +
+                     std::to_string(width) + " x " + std::to_string(height))
+                        .c_str(),
+                    area.x - 16);
     landmark("caption");
   } else if (two || mode == View::swipe) {
-    caption(corner, "picture", area.x);
+    clear = caption(corner, "picture", area.x);
     const float wide = ImGui::CalcTextSize("reference").x + 2 * ImGui::GetStyle().FramePadding.x;
     caption({end.x - wide - 8, corner.y}, "reference", area.x);
   } else if (mode != View::picture) {
@@ -366,22 +379,22 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   const Picture& linear = studio.workspace.referenceIsLinear() || !reference ? view.shown : view.levels;
   if (!other.texture) {
     if (mode == View::reference) {
-      numbersInPixels(studio, frame, canvas, end, comparable ? view.reference : *reference);
-    } else if (differs && comparable) {
-      numbersInPixels(studio, frame, canvas, end, view.difference);
-    } else if (mode != View::swipe) {
-      numbersInPixels(studio, frame, canvas, two ? ImVec2(canvas.x + part.x, end.y) : end, linear);
-      if (two && comparable)
-        numbersInPixels(studio, second, {canvas.x + part.x + kGap, canvas.y}, end, view.reference);
+      if (comparable) numbersInPixels(studio, frame, {canvas.x, clear}, end, view.reference);
+    } else if (differs && mode != View::picture) {
+      numbersInPixels(studio, frame, {canvas.x, clear}, end, view.difference);
+    } else {
+      numbersInPixels(studio, frame, {canvas.x, clear}, {two ? canvas.x + part.x : line, end.y}, linear);
+      if (two) numbersInPixels(studio, second, {canvas.x + part.x + kGap, clear}, end, view.reference);
+      if (mode == View::swipe) numbersInPixels(studio, frame, {line, clear}, end, view.reference);
     }
   }
-  if (mode == View::falseColour && comparable)
+  if (mode == View::falseColour)
     drawScale({canvas.x, clear}, end, {1 / static_cast<double>(view.magnify)}, falseColour);
   if (other.texture == &view.planeTexture && view.planeMade.scale.white > 0) {
-    numbersInPixels(studio, frame, canvas, end, view.planeMade.values, 1);
+    numbersInPixels(studio, frame, {canvas.x, clear}, end, view.planeMade.values, 1);
     drawScale({canvas.x, clear}, end, view.planeMade.scale, heatColor);
   }
-  if (view.histogramShown) drawHistogram(studio, canvas, end);
+  if (view.histogramShown && comparesPictures(studio) && !studio.stage) drawHistogram(studio, canvas, end);
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const FrameArea& under = two && mouse.x > canvas.x + part.x ? second : frame;
@@ -393,7 +406,7 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   };
   x = pixelAt((mouse.x - under.low.x) / under.size.x, width);
   y = pixelAt((mouse.y - under.low.y) / under.size.y, height);
-  const bool inside = ImGui::IsItemHovered() && x >= 0 && y >= 0 && x < width && y < height;
+  const bool within = ImGui::IsItemHovered() && x >= 0 && y >= 0 && x < width && y < height;
 
   if (!other.texture && mode == View::picture) {
     list.PushClipRect(canvas, end, true);
@@ -411,7 +424,7 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     list.AddRect(low, high, IM_COL32(255, 210, 60, 255), 0, 0, 1.5f);
     list.PopClipRect();
   }
-  return inside;
+  return within;
 }
 
 /// The picture, in which a click chooses a pixel; true with the pixel if the cursor is on one.

@@ -139,7 +139,7 @@ void editField(const Field& field, Value& value, Changed&& changed) {
 /// All fields of the struct; calls changed(keyword) after a change. Between beginFields() and endFields().
 template <class Struct, class Changed>
 void editFields(Struct& target, Changed&& changed) {
-  static const Struct usual{};
+  [[maybe_unused]] static const Struct usual{};
   forEachField<Struct>(
       [&](const auto& field) { editField(field, target.*field.member, usual.*field.member, changed); });
 }
