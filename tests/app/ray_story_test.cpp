@@ -142,8 +142,9 @@ TEST(RayStory, ShowsLightsWithoutAPlaceAndThoseBeyondTheView) {
   EXPECT_EQ(trianglesOf(drawing, {0, 0, 0.8}), 1u) << "behind the eye";
   for (const Drawn& thing : drawing.things) {
     const auto* disk = std::get_if<DrawnDisk>(&thing);
-    if (disk && disk->color == Color(0.8, 0, 0))
+    if (disk && disk->color == Color(0.8, 0, 0)) {
       EXPECT_GT(disk->center.x, 0.9 * 600 * 0.8) << "at the right edge";
+    }
   }
 }
 
