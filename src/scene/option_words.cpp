@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <iterator>
 #include <string>
+
+#include "base/field.h"
+#include "shading/cameras/camera.h"
 
 namespace trace {
 namespace {
@@ -50,8 +54,8 @@ constexpr std::array kWordRows{
     Row{"filter-radius", "reconstruction"},
     Row{"light-samples", "soft shadow shadows noise area penumbra"},
     Row{"light-choices", "many lights tree noise speed importance"},
-    Row{"aperture", "lens dof bokeh blur fstop pinhole"},
-    Row{"focus", "lens dof focal sharp distance"},
+    Row{"aperture", "lens dof depth of field bokeh blur fstop pinhole"},
+    Row{"focus", "lens dof depth of field focal sharp distance"},
     Row{"focus-on", "lens dof focal sharp object target point name"},
     Row{"blades", "lens bokeh"},
     Row{"blade-angle", "lens bokeh"},
@@ -135,6 +139,17 @@ std::string_view leastWordFor(const Option& option) {
   for (const Row& row : kLeastWordRows)
     if (row.option == option.name) return row.words;
   return "";
+}
+
+std::string_view cameraFieldMeant(std::string_view words) {
+  constexpr std::string_view kZoom[] = {"zoom", "field of view", "angle", "view angle", "focal length"};
+  const std::string wanted = plain(words);
+  if (std::find(std::begin(kZoom), std::end(kZoom), wanted) != std::end(kZoom)) return "fov";
+  std::string_view found;
+  forEachField<Camera>([&](const auto& field) {
+    if (field.keyword == wanted) found = field.keyword;
+  });
+  return found;
 }
 
 bool isAbout(const Option& option, std::string_view text) {

@@ -14,6 +14,10 @@ std::string_view wordsFor(const Option& option);
 /// The word for the least value of a number that is no quantity: "auto", "all"; "" if it is one.
 std::string_view leastWordFor(const Option& option);
 
+/// The field of the camera, which is no option, that a person may look for by these words; "" if there is
+/// none.
+std::string_view cameraFieldMeant(std::string_view words);
+
 /// Every word of `text` is part of the option's name, group, help, choices or other words; letters may be
 /// small or capital.
 bool isAbout(const Option& option, std::string_view text);

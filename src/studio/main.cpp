@@ -47,7 +47,7 @@ bool isBusy(Studio& studio) {
   Workspace& workspace = studio.workspace;
   return workspace.render.state().working() || workspace.reading() || workspace.saving() ||
          workspace.inspector.busy() || studio.rays.modelTask.busy() || studio.rays.chains.busy() ||
-         studio.rays.pyramid.busy() || studio.previews.busy() ||
+         studio.rays.pyramid.busy() || studio.previews.busy() || studio.picture.cost.busy() ||
          (!workspace.document.isOpen() && studio.start.task.pending());
 }
 
@@ -88,8 +88,9 @@ bool update(Studio& studio, double longest) {
   const bool modelling =
       studio.rays.modelTask.busy() || studio.rays.chains.busy() || studio.rays.pyramid.busy();
   due = due || smooths() || studio.rays.playsAt >= 0 || studio.start.news(workspace.document.isOpen()) ||
-        studio.previews.news() || studio.pulse != pulse || modelling != studio.modelling ||
-        studio.themeChanged || ImGui::GetIO().WantTextInput;  // its cursor blinks
+        studio.previews.news() || studio.picture.cost.news() || studio.pulse != pulse ||
+        modelling != studio.modelling || studio.themeChanged ||
+        ImGui::GetIO().WantTextInput;  // its cursor blinks
   studio.pulse = pulse;
   studio.modelling = modelling;
   return due;

@@ -96,7 +96,8 @@ View viewOf(const std::string& word) {
 FilmPlane planeOf(const std::string& word) {
   const int number = whole(word);
   if (number < 0 || number >= static_cast<int>(std::size(kPlaneNames)))
-    throw Error(Fault::usage, "expected 0 to 3, found " + word);
+    throw Error(Fault::usage,
+                "expected 0 to " + std::to_string(std::size(kPlaneNames) - 1) + ", found " + word);
   return static_cast<FilmPlane>(number);
 }
 
@@ -295,7 +296,7 @@ constexpr std::array kCommands{
             [](Studio& s, const Words& a) { s.picture.view = viewOf(a[0]); },
             [](const Words& a) { viewOf(a[0]); }},
     Command{"plane", "NUMBER", 1, 1,
-            "the view of the render: 0 picture, 1 samples, 2 noise, 3 change by denoise",
+            "the view of the render: 0 picture, 1 samples, 2 noise, 3 change by denoise, 4 cost",
             [](Studio& s, const Words& a) { s.picture.plane = planeOf(a[0]); },
             [](const Words& a) { planeOf(a[0]); }},
     Command{"pass", "NAME", 1, 1, "the pass of the render that is seen; picture: none",
@@ -325,7 +326,8 @@ constexpr std::array kCommands{
             }},
     Command{"rays", "", 0, 0, "wait until the rays of the pixel are shown", nullptr, nullptr, 3,
             [](Studio& s, const Words&) {
-              return !s.workspace.inspector.busy() && !s.rays.chains.busy() && !s.rays.pyramid.busy();
+              return !s.workspace.inspector.busy() && !s.rays.chains.busy() && !s.rays.pyramid.busy() &&
+                     !s.picture.cost.busy();
             }},
     Command{
         "seen", "", 0, 0, "wait until a frame shows the rays of the pixel", nullptr, nullptr, 0,

@@ -65,6 +65,7 @@ void enterPresses() {
 void followScene(Studio& studio) {
   const Document& document = studio.workspace.document;
   if (!document.isOpen() || document.scene().file == studio.sceneFile) return;
+  if (!studio.sceneFile.empty()) studio.picture.view = View::picture;  // the reference is of the other scene
   studio.sceneFile = document.scene().file;
   studio.picture.fit = true;
   studio.picture.pixel.clear();

@@ -121,6 +121,27 @@ TEST(PictureViews, PlanesAreHeatMapsWithALegend) {
   EXPECT_NE(planeView(FilmPlane::change, film, shown).legend.find("denoise is off"), std::string::npos);
 }
 
+TEST(PictureViews, AHeatMapHasAScaleWithNumbers) {
+  const Film film = twoPixels(3);
+  const PlaneView samples = planeView(FilmPlane::samples, film, film.picture());
+  EXPECT_EQ(samples.values.at(1, 0).r, 4);
+  EXPECT_EQ(samples.scale.text(samples.values.at(1, 0).r), "4 rays");
+  const PlaneView noise = planeView(FilmPlane::noise, film, film.picture());
+  EXPECT_EQ(noise.scale.white, 8);
+  EXPECT_NEAR(noise.values.at(1, 0).r, 73.6, 0.1) << "levels";
+
+  CostMap cost{nullptr, 1, Picture(2, 1)};
+  EXPECT_NE(planeView(FilmPlane::cost, film, film.picture()).legend.find("being measured"),
+            std::string::npos);
+  cost.tests.at(0, 0) = Color(9), cost.tests.at(1, 0) = Color(99);
+  const PlaneView work = planeView(FilmPlane::cost, film, film.picture(), cost);
+  EXPECT_EQ(work.colours.at(1, 0), Color(1)) << "the most";
+  EXPECT_NEAR(work.scale.shareOf(9), 0.5, 1e-12) << "each step of a colour is a factor";
+  EXPECT_NEAR(work.scale.valueAt(0.5), 9, 1e-9);
+  EXPECT_EQ(work.legend, "boxes and surfaces tested for a sample: 9 to 99; 54 on the average");
+  EXPECT_EQ(work.scale.text(1240.4), "1240 tests");
+}
+
 TEST(PictureViews, FalseColoursAreBlackWithoutADifferenceAndGetBrighter) {
   Picture a(2, 1), b(2, 1);
   b.at(1, 0) = {0, 0, 0.5};

@@ -270,5 +270,33 @@ TEST(PixelWhy, EveryRayHasAnEquation) {
   }
 }
 
+TEST(PixelWhy, EmissiveObjectsLightNothingForWhitted) {
+  const std::string room = R"(
+camera { position = (0, 1, 6); viewdir = (0, -0.1, -1); updir = (0, 1, 0); fov = 40; aspectratio = 1; }
+translate(0, -1, 0, rotate(1, 0, 0, -1.5708, scale(30, 30, 1, square { name = "floor";
+  material = { diffuse = (0.8, 0.8, 0.8) } })))
+translate(0, 4, 0, sphere { name = "bulb"; material = { emissive = (20, 20, 20) } })
+)";
+  Settings settings;
+  settings.width = settings.height = 40;
+  settings.integrator = IntegratorKind::whitted;
+  settings.lampSamples = 0;
+  const PixelWhy why = traced(room, settings, 20, 35).why;
+  EXPECT_EQ(why.sentence,
+            "Black: only emissive objects light the scene, and for integrator whitted they light nothing.");
+  ASSERT_EQ(why.cures.size(), 2u);
+  EXPECT_EQ(why.cures.back().label, "integrator path");
+}
+
+TEST(PixelWhy, TermsThatAreNothingAreNoPartOfTheSum) {
+  Phong ball;
+  ball.diffuse = Color(0.5), ball.emissive = Color(0.4);
+  Scene scene = ballOf(ball);
+  scene.lights.push_back({PointLight{.position = {0, 0, 6}, .color = Color(1e-9)}, {}});
+  const PixelWhy why = whyOf(scene, {});
+  ASSERT_EQ(why.sum.size(), 1u);
+  EXPECT_EQ(why.sum.front().name, "emissive");
+}
+
 }  // namespace
 }  // namespace trace::test

@@ -137,5 +137,15 @@ TEST(Placing, TakesNoCameraThatSeesNothing) {
   EXPECT_FALSE(sees([](Camera& c) { c.viewdir = c.updir; }));
 }
 
+TEST(Placing, ANewObjectIsLetDownOntoTheFloor) {
+  const Box3 own{{-1, 2, -1}, {1, 4, 1}};
+  const auto floor = [](const Ray& ray) { return std::optional<Real>(ray.origin.y / -ray.direction.y); };
+  expectNear(letDown(own, {0, 1, 0.2}, floor), {0, -2, 0});
+  const auto nothing = [](const Ray&) { return std::optional<Real>(); };
+  expectNear(letDown(own, {0, 1, 0}, nothing), {});
+  const auto within = [](const Ray&) { return std::optional<Real>(0.5); };
+  expectNear(letDown(own, {0, 1, 0}, within), {});
+}
+
 }  // namespace
 }  // namespace trace::test

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/session/session.h"
+#include "geometry/shapes/solids/plane.h"
 #include "geometry/shapes/solids/sphere.h"
 #include "image/codecs/codec_parts.h"
 #include "image/development/development.h"
@@ -120,6 +121,47 @@ TEST(RayStory, SwatchesAndSentencesCountAutomaticExposureOnce) {
   EXPECT_EQ(pixel.why.sentence.find("Black"), std::string::npos) << pixel.why.sentence;
   const Color shown = shownColour(pixel.tree().nodes.front().radiance, session->settings());
   EXPECT_GT(maxComponent(shown), 0.3);
+}
+
+std::size_t trianglesOf(const Drawing& drawing, const Color& color) {
+  std::size_t count = 0;
+  for (const Drawn& thing : drawing.things)
+    if (const auto* triangle = std::get_if<DrawnTriangle>(&thing)) count += triangle->color == color;
+  return count;
+}
+
+TEST(RayStory, ShowsLightsWithoutAPlaceAndThoseBeyondTheView) {
+  Scene scene = mirrorAndBall();
+  scene.lights.push_back({DirectionalLight{.direction = {1, -1, 0}, .color = {0, 1, 0}}, {}});
+  scene.lights.push_back({PointLight{.position = {50, 0, 0}, .color = {1, 0, 0}}, {}});
+  scene.lights.push_back({PointLight{.position = {0, 9, 30}, .color = {0, 0, 1}}, {}});
+  const auto session = sessionOf(scene, {});
+  const Drawing drawing = RayStory(tracePixel(session, 20, 20, 0), scene.camera).after(0);
+  EXPECT_EQ(trianglesOf(drawing, {0, 0.8, 0}), 3u) << "arrows of the sun";
+  EXPECT_EQ(trianglesOf(drawing, {0.8, 0, 0}), 1u) << "to the right";
+  EXPECT_EQ(trianglesOf(drawing, {0, 0, 0.8}), 1u) << "behind the eye";
+  for (const Drawn& thing : drawing.things) {
+    const auto* disk = std::get_if<DrawnDisk>(&thing);
+    if (disk && disk->color == Color(0.8, 0, 0)) {
+      EXPECT_GT(disk->center.x, 0.9 * 600 * 0.8) << "at the right edge";
+    }
+  }
+}
+
+TEST(RayStory, CutsAnInfiniteFloorOffAsTheWindowDoes) {
+  Scene scene = mirrorAndBall();
+  addObject(scene, Plane{}, Affine::translation({0, -1, 0}) * Affine::rotation({1, 0, 0}, kPi / 2), {});
+  const auto session = sessionOf(scene, {});
+  Camera above = scene.camera;
+  above.position = {0, 900, 0}, above.viewdir = {0, -1, 0}, above.updir = {0, 0, -1};
+  const Drawing drawing = RayStory(tracePixel(session, 20, 20, 0), above).after(0);
+  for (const Drawn& thing : drawing.things) {
+    const auto* picture = std::get_if<DrawnPicture>(&thing);
+    if (!picture || picture->picture.width < 100) continue;
+    const Picture& view = picture->picture;
+    EXPECT_GT(view.at(2, 2).b, 0.9) << "nothing";
+    EXPECT_LT(view.at(view.width / 2, view.height / 2).b, 0.9);
+  }
 }
 
 }  // namespace

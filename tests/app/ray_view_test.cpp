@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/explain/ray_segments.h"
 #include "app/session/session.h"
 #include "app/view/orbit_camera.h"
 #include "app/view/scene_model.h"
@@ -458,6 +459,29 @@ TEST(SceneModel, ATexturedSurfaceHasTheMeanColourOfItsTexture) {
   EXPECT_NEAR(c.r, 0.5, 0.15);
   EXPECT_NEAR(c.b, 0.5, 0.15);
   EXPECT_LT(c.g, 0.1);
+}
+
+TEST(RayView, AFarFloorDoesNotKeepTheRestOutOfSight) {
+  std::vector<RaySegment> segments;
+  segments.push_back({.from = {0, 0, 9}, .to = {0, 0, 1}});
+  segments.push_back({.node = 1, .looks = RayLooks::refraction, .from = {0, 0, 1}, .to = {0, 0, -1}});
+  segments.push_back({.node = 2, .looks = RayLooks::refraction, .from = {0, 0, -1}, .to = {0, 0, -5000}});
+  const Box3 near = boundsOf(segments, 20);
+  EXPECT_EQ(near.low, Vec3(0, 0, -1));
+  EXPECT_EQ(near.high, Vec3(0, 0, 1));
+  EXPECT_EQ(boundsOf(segments).low.z, -5000);
+}
+
+TEST(SceneModel, SharesTheCornersOfTriangles) {
+  Scene scene;
+  addObject(scene, Sphere{}, {}, {});
+  addObject(scene, Cube{}, Affine::translation({3, 0, 0}), {});
+  const SceneModel model = SceneModeler().model(scene);
+  const SharedCorners& shared = model.shared;
+  ASSERT_EQ(shared.indices.size(), model.corners.size() / 6);
+  EXPECT_LT(shared.corners.size(), model.corners.size() / 3);
+  for (std::size_t i = 0; i < model.corners.size(); ++i)
+    ASSERT_EQ(model.corners[i], shared.corners[6 * shared.indices[i / 6] + i % 6]);
 }
 
 }  // namespace

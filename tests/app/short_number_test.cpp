@@ -6,6 +6,14 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/text.h"
+#include "geometry/shape.h"
+#include "scene/option_words.h"
+#include "scene/options.h"
+#include "shading/background.h"
+#include "shading/cameras/camera.h"
+#include "shading/lights/light.h"
+
 namespace trace::test {
 namespace {
 
@@ -54,6 +62,56 @@ TEST(ShortNumber, WhatIsShownIsTheValueToATwentieth) {
           EXPECT_LE(text.size(), room);
           EXPECT_LE(std::abs(std::strtod(text.c_str(), nullptr) - signedValue), 0.05 * value) << text;
         }
+}
+
+TEST(NumberWords, AreAcceptedWhereTheyAreShown) {
+  const NumberWords words{"auto", kNoLimit};
+  EXPECT_EQ(words.of(0, 0), "auto");
+  EXPECT_EQ(words.of(1, 0), "");
+  EXPECT_EQ(words.of(kNoLimit, 0), "no limit");
+  EXPECT_EQ(words.meaning("Auto", 0), 0);
+  EXPECT_EQ(words.meaning("no limit", 0), kNoLimit);
+  EXPECT_FALSE(words.meaning("aut", 0));
+  EXPECT_FALSE(NumberWords{}.meaning("", 0));
+  EXPECT_FALSE(NumberWords{}.meaning("no limit", 0)) << "the field takes no infinity";
+}
+
+TEST(NumberWords, OfEveryOptionCanBeTypedBack) {
+  std::size_t count = 0;
+  for (const Option& option : options()) {
+    const NumberWords words{leastWordFor(option), {}};
+    if (words.least.empty()) continue;
+    ++count;
+    EXPECT_EQ(words.meaning(words.of(option.least, option.least), option.least), option.least) << option.name;
+    Settings settings;
+    EXPECT_NO_THROW(option.assign(settings, toText(option.least))) << option.name;
+  }
+  EXPECT_GT(count, 20u);
+  for (const Option& option : options())
+    EXPECT_EQ(option.get(Settings{}).find("inf"), std::string::npos) << option.name << " needs a word";
+}
+
+/// The word of an infinite value means that value.
+template <class Field, class Value>
+void expectTypedBack(const Field& field, const Value& value, std::size_t& count) {
+  if constexpr (std::is_same_v<Value, Real>) {
+    if (!std::isinf(value)) return;
+    ++count;
+    EXPECT_GE(value, field.least) << field.keyword;
+    EXPECT_LE(value, field.most) << field.keyword;
+    const NumberWords words{{}, value};
+    EXPECT_EQ(words.meaning(words.of(value, field.least), field.least), value) << field.keyword;
+  }
+}
+
+TEST(NumberWords, OfEveryFieldOfAThingOfAScene) {
+  std::size_t count = 0;
+  const auto visit = [&](const auto& field, const auto& value) { expectTypedBack(field, value, count); };
+  forEachField(Camera{}, visit);
+  forEachField(Background{}, visit);
+  for (const LightType& type : lightTypes()) forEachField(Light(type), visit);
+  for (const ShapeType& type : shapeTypes()) forEachField(Shape(type), visit);
+  EXPECT_GE(count, 7u) << "the camera's far and six flaps";
 }
 
 }  // namespace

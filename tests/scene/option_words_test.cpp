@@ -69,5 +69,14 @@ TEST(OptionWords, AreHints) {
   }
 }
 
+TEST(OptionWords, KnowWhatOfTheCameraIsNoOption) {
+  EXPECT_EQ(cameraFieldMeant("fov"), "fov");
+  EXPECT_EQ(cameraFieldMeant("Field of View"), "fov");
+  EXPECT_EQ(cameraFieldMeant("zoom"), "fov");
+  EXPECT_EQ(cameraFieldMeant("depth"), "");
+  EXPECT_EQ(cameraFieldMeant(""), "");
+  EXPECT_TRUE(isAbout(findOption("aperture"), "depth of field"));
+}
+
 }  // namespace
 }  // namespace trace

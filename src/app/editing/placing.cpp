@@ -60,6 +60,14 @@ Affine placedInSight(const Box3& bounds, const CameraFrame& camera, const Vec3& 
   return Affine::translation(middle - bounds.center() * factor) * Affine::scaling(Vec3(1, 1, 1) * factor);
 }
 
+Vec3 letDown(const Box3& own, const Vec3& updir,
+             const std::function<std::optional<Real>(const Ray&)>& distance) {
+  const Vec3 up = upOf(updir);
+  const std::optional<Real> below = distance({own.center(), -up});
+  const Real half = std::abs(dot(own.size(), up)) / 2;
+  return below && *below > half ? -up * (*below - half) : Vec3{};
+}
+
 namespace {
 
 bool holds(const Box3& outer, const Box3& inner) {

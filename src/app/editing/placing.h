@@ -1,6 +1,7 @@
 // How a person turns and stretches an object, in steps that multiply what is there; and what may be typed.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,11 @@ bool keepsObject(const Affine& placed);
 /// one without an end stays as it is made.
 Affine placedInSight(const Box3& bounds, const CameraFrame& camera, const Vec3& updir,
                      const std::optional<SurfacePoint>& there, Real ahead);
+
+/// The move that lets a new object, whose box this is, down onto what is below it. `distance` finds the first
+/// thing that a ray hits. None if there is nothing below.
+Vec3 letDown(const Box3& own, const Vec3& updir,
+             const std::function<std::optional<Real>(const Ray&)>& distance);
 
 /// The move that frees a new object, whose box this is, from the boxes of others: to the right, to the left,
 /// toward the eye, or on top of them. None if it is free. What holds it wholly, as a room does, is no

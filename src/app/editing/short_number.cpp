@@ -1,11 +1,20 @@
 #include "app/editing/short_number.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 
 namespace trace {
 namespace {
+
+constexpr std::string_view kUnlimited = "no limit";
+
+bool sameWord(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
 
 std::string printed(const char* format, double value) {
   char text[400];
@@ -60,6 +69,16 @@ std::string shortNumber(double value, const std::string& format,
         return text;
   }
   return "...";
+}
+
+std::string_view NumberWords::of(double value, double from) const {
+  if (value == from && !least.empty()) return least;
+  return std::isinf(value) ? kUnlimited : std::string_view();
+}
+
+std::optional<double> NumberWords::meaning(std::string_view typed, double from) const {
+  if (!least.empty() && sameWord(typed, least)) return from;
+  return sameWord(typed, kUnlimited) ? unlimited : std::nullopt;
 }
 
 }  // namespace trace

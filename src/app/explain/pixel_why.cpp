@@ -9,6 +9,7 @@
 #include "app/explain/ray_words.h"
 #include "base/text.h"
 #include "math/elementary.h"
+#include "scene/options.h"
 #include "shading/bsdf.h"
 #include "shading/lights/ambient_light.h"
 
@@ -359,6 +360,14 @@ std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene, int ray) 
       same->last = std::max(same->last, last);
     }
   }
+  constexpr Real kNothing = 1e-6;  // share of the whole: less than digits and swatches show
+  Color whole;
+  for (const WhySummand& each : sum) whole = whole + each.color;
+  std::erase_if(sum, [&](const WhySummand& each) {
+    const Real most =
+        maxComponent(Color(std::abs(each.color.r), std::abs(each.color.g), std::abs(each.color.b)));
+    return most > 0 && most < kNothing * brightness(whole);
+  });
   return sum;
 }
 
@@ -378,6 +387,19 @@ Color sumAfter(const std::vector<WhySummand>& sum, int rays) {
     if (each.last < rays) after = after + each.color;
   return after;
 }
+
+namespace {
+
+bool litByEmissiveAlone(const Scene& scene) {
+  return std::all_of(scene.lights.begin(), scene.lights.end(),
+                     [](const LightSource& source) { return source.light.is<AmbientLight>(); }) &&
+         std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
+           return object.material < scene.materials.size() &&
+                  !isBlack(phongOf(scene.materials[object.material].model).emissive);
+         });
+}
+
+}  // namespace
 
 PixelWhy whyOf(const RayTree& tree, const Scene& scene, const Settings& settings, const Retrace& retrace) {
   PixelWhy why;
@@ -402,7 +424,12 @@ PixelWhy whyOf(const RayTree& tree, const Scene& scene, const Settings& settings
   const auto most = std::max_element(why.sum.begin(), why.sum.end(), [](const auto& a, const auto& b) {
     return brightness(a.color) < brightness(b.color);
   });
-  if (black) {
+  if (black && litByEmissiveAlone(scene) && settings.lampSamples == 0 &&
+      findOption("lamp-samples").concerns(settings)) {
+    why.sentence = head + "only emissive objects light the scene, and for integrator " +
+                   findOption("integrator").get(settings) + " they light nothing.";
+    why.cures = {byOption("lamp-samples", "4"), byOption("integrator", "path")};
+  } else if (black) {
     const bool lights = std::any_of(root.terms.begin(), root.terms.end(),
                                     [](const Term& term) { return term.light.has_value(); });
     why.sentence =

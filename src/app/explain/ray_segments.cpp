@@ -49,11 +49,14 @@ std::vector<RaySegment> raySegments(const RayTree& tree) {
   return segments;
 }
 
-Box3 boundsOf(const std::vector<RaySegment>& segments) {
+Box3 boundsOf(const std::vector<RaySegment>& segments, Real reach) {
   Box3 box;
+  const auto note = [&](const Vec3& point) {
+    if (length(point - segments.front().to) <= reach) box.extend(point);
+  };
   for (const RaySegment& segment : segments) {
-    if (segment.looks != RayLooks::camera) box.extend(segment.from);
-    if (!segment.leaves) box.extend(segment.to);
+    if (segment.looks != RayLooks::camera) note(segment.from);
+    if (!segment.leaves) note(segment.to);
   }
   return box;
 }

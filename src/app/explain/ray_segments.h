@@ -22,7 +22,7 @@ const MediumTerm* scatteredIn(const RayNode& node);
 std::vector<RaySegment> raySegments(const RayTree& tree);
 
 /// Around the places that the rays came to and the lights that they asked; neither the camera nor what leaves
-/// the scene. Empty if there are none.
-Box3 boundsOf(const std::vector<RaySegment>& segments);
+/// the scene, nor what is farther than `reach` from where the first of them ended. Empty if there are none.
+Box3 boundsOf(const std::vector<RaySegment>& segments, Real reach = kInfinity);
 
 }  // namespace trace

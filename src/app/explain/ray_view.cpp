@@ -7,6 +7,7 @@
 #include "app/explain/ray_segments.h"
 #include "app/explain/ray_words.h"
 #include "base/text.h"
+#include "image/srgb.h"
 #include "scene/groups.h"
 
 namespace trace {
@@ -122,7 +123,7 @@ std::string metBy(const RayTree& tree, const Scene& scene, int ray) {
   return term && term->light ? shortLightName(scene, term->light->light) : "";
 }
 
-Real share(const RayNode& node) { return std::abs(maxComponent(node.weight * node.radiance)); }
+Real share(const RayNode& node) { return luminanceOf(node.weight * node.radiance); }
 
 std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, int index,
                                                            const Scene& scene) {

@@ -30,6 +30,10 @@ directional_light { direction = (-0.5, -1, -0.65); color = (0.75, 0.74, 0.7); }
 constexpr std::string_view kFloor =
     R"(translate(0, -1, 0, plane { material = { diffuse = checker { scale = (0.8, 0.8, 0.8); a = (0.62, 0.62, 0.6); b = (0.42, 0.43, 0.45); }; } })
 )";
+/// For mirrors and glass to show.
+constexpr std::string_view kSky =
+    "scale(40, 40, 40, sphere { material = { diffuse = (0, 0, 0); emissive = (0.6, 0.72, 0.9); casts_shadow "
+    "= off; } })\n";
 constexpr std::string_view kBall =
     R"(translate(0, -0.45, 0, scale(0.55, 0.55, 0.55, sphere { material = { diffuse = (0.7, 0.7, 0.7); } }))
 )";
@@ -91,7 +95,7 @@ Scene sceneOfLight(std::string_view name) {
 }
 
 Scene sceneOfMaterial(std::string_view name) {
-  return sceneOf(std::string(kStage) + std::string(kSun) + std::string(kFloor) +
+  return sceneOf(std::string(kStage) + std::string(kSun) + std::string(kFloor) + std::string(kSky) +
                  "sphere { material = { library = \"" + std::string(name) + "\" } }\n");
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/view/magnifier.h"
 #include "app/view/room.h"
 #include "app/view/scene_model.h"
 #include "math/elementary.h"
@@ -35,6 +36,19 @@ std::optional<Point2> Panel::placeOf(const Vec3& point) const {
   const Point2 at = place(*seen);
   const bool within = at.x > at_.x && at.x < at_.x + width_ && at.y > at_.y && at.y < at_.y + height_;
   return within ? std::optional(at) : std::nullopt;
+}
+
+std::optional<Point2> Panel::toward(const Vec3& point) const {
+  const Vec3 p = linear(toPlane_, point - eye_);
+  const Point2 way{p.x * width_, -p.y * height_};
+  const double far = math::hypot(way.x, way.y);
+  if (placeOf(point) || !(far > 0) || !std::isfinite(far)) return {};
+  return Point2{way.x / far, way.y / far};
+}
+
+Point2 Panel::edgeAt(const Point2& toward, double margin) const {
+  const Vec2 mark = edgeMark({width_, height_}, {toward.x, toward.y}, margin);
+  return {at_.x + mark.x, at_.y + mark.y};
 }
 
 void Panel::disk(Drawing& drawing, const Vec3& point, double radius, const Color& color) const {
@@ -120,6 +134,10 @@ DrawnPicture colouredSketch(const World& world, const Scene& scene, const std::v
     const Real facing = std::abs(dot(world.surface(ray, found).normal, ray.direction));
     return lookAt(found).color * (0.5 + 0.5 * facing / length(ray.direction));
   };
+  const Box3 near = frameOf(scene);
+  const auto cutOff = [&](const Ray& ray, const Found& found) {
+    return world.ownBoundsOf(found.object).unbounded() && !near.empty() && !near.contains(ray.at(found.t));
+  };
   Picture picture(static_cast<int>(width), static_cast<int>(height));
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
@@ -127,11 +145,13 @@ DrawnPicture colouredSketch(const World& world, const Scene& scene, const std::v
       const Ray ray = world.camera().ray({(x + 0.5) / picture.width, 1 - (y + 0.5) / picture.height});
       const auto nearest = closestShown(world, ray, walls, inside);
       if (!nearest) continue;
-      if (lookAt(*nearest).opacity >= 1) {
+      if (lookAt(*nearest).opacity >= 1 && !cutOff(ray, *nearest)) {
         pixel = shaded(ray, *nearest);
         continue;
       }
-      const std::vector<Found> all = shownCrossings(world, ray, walls, inside);
+      std::vector<Found> all = shownCrossings(world, ray, walls, inside);
+      std::erase_if(all, [&](const Found& found) { return cutOff(ray, found); });
+      if (all.empty()) continue;
       const auto layers = std::min<std::size_t>(all.size(), kMostLayers);
       const auto solid = std::find_if(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(layers),
                                       [&](const Found& found) { return lookAt(found).opacity >= 1; });

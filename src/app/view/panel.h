@@ -25,6 +25,11 @@ class Panel {
   void line(Drawing& drawing, Vec3 from, Vec3 to, const Color& color, double width, bool dashed) const;
   /// The place of a point; nothing outside the view.
   std::optional<Point2> placeOf(const Vec3& point) const;
+  /// The direction on the drawing, of length 1, from the middle of the view to a point that lies outside it;
+  /// nothing for one within it.
+  std::optional<Point2> toward(const Vec3& point) const;
+  /// The place of a mark at the edge of the view in that direction.
+  Point2 edgeAt(const Point2& toward, double margin) const;
   /// A head at a share of the way, which shows where a ray goes.
   void arrowHead(Drawing& drawing, const Vec3& from, const Vec3& to, const Color& color, double size) const;
   void disk(Drawing& drawing, const Vec3& point, double radius, const Color& color) const;
@@ -49,6 +54,7 @@ class Panel {
 Settings plainView(Settings settings);
 
 /// The surfaces in the colours of their materials, glass as clear as it is, otherwise as sketch().
+/// Infinite objects are cut off around the others, as in the window.
 DrawnPicture colouredSketch(const World& world, const Scene& scene, const std::vector<std::uint32_t>& walls,
                             const Vec3& inside, const Point2& at, double width, double height);
 

@@ -40,27 +40,42 @@ std::string formatted(const char* format, Args... args) {
   return text;
 }
 
-/// Values of which `white` and all above are white.
-Picture heat(Picture values, double white) {
-  for (Color& c : values.pixels) c = heatColor(c.r / white);
-  return values;
+/// The values in colours by the scale.
+PlaneView heatMap(Picture values, ColourScale scale, std::string legend) {
+  Picture colours = values;
+  for (Color& c : colours.pixels) c = heatColor(scale.shareOf(c.r));
+  return {std::move(colours), std::move(legend), scale, std::move(values)};
+}
+
+/// Least, mean and greatest of the values above 0.
+struct ValueSpread {
+  double least = kInfinity, most = 0, mean = 0;
+};
+ValueSpread spreadOf(const Picture& values) {
+  ValueSpread spread;
+  double sum = 0, count = 0;
+  for (const Color& c : values.pixels) {
+    if (c.r == 0) continue;  // outside the region, or not yet there
+    spread.least = std::min(spread.least, c.r);
+    spread.most = std::max(spread.most, c.r);
+    sum += c.r;
+    ++count;
+  }
+  if (count > 0) spread.mean = sum / count;
+  return spread;
 }
 
 PlaneView samplesView(const Film& film) {
   Picture counts = film.sampleCounts();
-  double least = kInfinity, most = 0;
-  for (const Color& c : counts.pixels) {
-    if (c.r == 0) continue;  // outside the region, or not yet there
-    least = std::min(least, c.r);
-    most = std::max(most, c.r);
-  }
-  if (most == 0) return {std::move(counts), "no pixel has samples yet"};
-  if (least == most)
-    return {heat(std::move(counts), most),
-            formatted("%.0f %s in every pixel", most, most == 1 ? "ray" : "rays")};
-  const std::string legend = formatted("rays a pixel: %.0f to %.0f, which is white; %.4g on the average",
-                                       least, most, film.convergence().samples);
-  return {heat(std::move(counts), most), legend};
+  const ValueSpread spread = spreadOf(counts);
+  if (spread.most == 0) return {std::move(counts), "no pixel has samples yet"};
+  const ColourScale scale{spread.most, false, "rays"};
+  if (spread.least == spread.most)
+    return heatMap(std::move(counts), scale,
+                   formatted("%.0f %s in every pixel", spread.most, spread.most == 1 ? "ray" : "rays"));
+  return heatMap(std::move(counts), scale,
+                 formatted("rays a pixel: %.0f to %.0f, which is white; %.4g on the average", spread.least,
+                           spread.most, film.convergence().samples));
 }
 
 PlaneView noiseView(const Film& film) {
@@ -69,9 +84,12 @@ PlaneView noiseView(const Film& film) {
   if (!so.judged)
     return {Picture(film.width(), film.height()),
             "noise is not known: it needs two samples a pixel of its own"};
-  return {heat(film.errors(), kWhite / 255),
-          formatted("noise (standard error of the mean): white from %.0f levels on; %.3g on the average",
-                    kWhite, 255 * so.error)};
+  Picture levels = film.errors();
+  for (Color& c : levels.pixels) c = c * 255;
+  return heatMap(std::move(levels), {kWhite, false, "levels"},
+                 formatted("noise (standard error of the mean): white from %.0f levels on; %.3g on the "
+                           "average",
+                           kWhite, 255 * so.error));
 }
 
 PlaneView changeView(const Film& film, const Picture& shown) {
@@ -79,18 +97,42 @@ PlaneView changeView(const Film& film, const Picture& shown) {
   Picture by = change(film.picture(), shown);
   if (!film.keepsHalves()) return {std::move(by), "nothing was changed: denoise is off"};
   const double mean = meanChange(by);
-  for (Color& c : by.pixels) c = Color(std::max({std::abs(c.r), std::abs(c.g), std::abs(c.b)}));
-  return {heat(std::move(by), kWhite / 255),
-          formatted("what denoise changed: white from %.0f levels on; %.3g on the average", kWhite, mean)};
+  for (Color& c : by.pixels) c = Color(255 * std::max({std::abs(c.r), std::abs(c.g), std::abs(c.b)}));
+  return heatMap(
+      std::move(by), {kWhite, false, "levels"},
+      formatted("what denoise changed: white from %.0f levels on; %.3g on the average", kWhite, mean));
+}
+
+PlaneView costView(const Film& film, const CostMap& cost) {
+  if (cost.tests.width != film.width() || cost.tests.height != film.height())
+    return {Picture(film.width(), film.height()), "the cost of each pixel is being measured"};
+  const ValueSpread spread = spreadOf(cost.tests);
+  return heatMap(cost.tests, {std::max(spread.most, 1.0), true, "tests"},
+                 formatted("boxes and surfaces tested for a sample: %.3g to %.3g; %.3g on the average%s",
+                           std::min(spread.least, spread.most), spread.most, spread.mean,
+                           cost.block > 1 ? "; coarse, it is being measured" : ""));
 }
 
 }  // namespace
 
-PlaneView planeView(FilmPlane plane, const Film& film, const Picture& shown) {
+double ColourScale::shareOf(double value) const {
+  return logarithmic ? math::log1p(value) / math::log1p(white) : value / white;
+}
+
+double ColourScale::valueAt(double share) const {
+  return logarithmic ? math::pow(1 + white, share) - 1 : share * white;
+}
+
+std::string ColourScale::text(double value) const {
+  return formatted(value >= 100 ? "%.0f" : "%.3g", value) + (unit.empty() ? "" : " " + std::string(unit));
+}
+
+PlaneView planeView(FilmPlane plane, const Film& film, const Picture& shown, const CostMap& cost) {
   switch (plane) {
     case FilmPlane::samples: return samplesView(film);
     case FilmPlane::noise: return noiseView(film);
     case FilmPlane::change: return changeView(film, shown);
+    case FilmPlane::cost: return costView(film, cost);
     case FilmPlane::picture: break;
   }
   return {shown, ""};

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/session/cost_map.h"
 #include "image/development/tone.h"
 #include "image/film/film.h"
 #include "image/picture.h"
@@ -53,16 +54,31 @@ Bytes fewerPixels(const Bytes& picture, int most);
 Color falseColour(double value);
 
 /// The views of a render that may replace its picture.
-enum class FilmPlane { picture, samples, noise, change };
-inline constexpr const char* kPlaneNames[] = {"Picture", "Samples", "Noise", "Denoised"};
+enum class FilmPlane { picture, samples, noise, change, cost };
+inline constexpr const char* kPlaneNames[] = {"Picture", "Samples", "Noise", "Denoised", "Cost"};
+
+/// Which value each colour of a heat map stands for.
+struct ColourScale {
+  double white = 0;          ///< the value that is white; 0: no scale
+  bool logarithmic = false;  ///< logarithm of 1 + value
+  std::string_view unit{};
+
+  /// The place of a value, from 0 to 1, and the reverse.
+  double shareOf(double value) const;
+  double valueAt(double share) const;
+  /// Text of a value: "1240 tests".
+  std::string text(double value) const;
+};
 
 /// A plane of a film in colours, from black over violet, red and yellow to white, and what they mean.
 /// `shown` is the film's picture, perhaps without noise. Precondition: not the picture itself.
 struct PlaneView {
   Picture colours;
   std::string legend;
+  ColourScale scale{};  ///< of `values`
+  Picture values{};     ///< values that the colours show, in all three channels; empty if there are none
 };
-PlaneView planeView(FilmPlane plane, const Film& film, const Picture& shown);
+PlaneView planeView(FilmPlane plane, const Film& film, const Picture& shown, const CostMap& cost = {});
 
 /// The passes that a film has and that can be seen, by their names.
 std::vector<std::string_view> passesToSee(const Settings& settings);

@@ -19,7 +19,7 @@
 namespace trace {
 namespace {
 
-constexpr double kHigh = 600, kMargin = 16, kRowHigh = 24, kLetters = 17;
+constexpr double kHigh = 600, kSheetMargin = 16, kRowHigh = 24, kLetters = 17;
 constexpr double kAdds = 74, kEnded = 190, kTree = 620;  // widths of two columns, and of the whole tree
 
 /// An SVG's letters may be a little wider than ours.
@@ -86,17 +86,18 @@ RayStory::RayStory(const TracedPixel& pixel, const Camera& view) : pixel_(pixel)
   const Vec3& inside = pixel.scene().camera.position;
   frame_ = world.camera();
   surfaces_ = colouredSketch(world, pixel.scene(), wallsAround(world, inside, frameOf(pixel.scene())), inside,
-                             {kMargin, kMargin + 1.5 * kRowHigh}, wide_, kHigh);
+                             {kSheetMargin, kSheetMargin + 1.5 * kRowHigh}, wide_, kHigh);
 }
 
 Drawing RayStory::after(int rays) const {
   rays = std::clamp(rays, 0, this->rays());
   Drawing drawing;
-  drawing.width = static_cast<int>(wide_ + kTree + 3 * kMargin);
-  drawing.height = static_cast<int>(kHigh + 2 * kMargin + 5 * kRowHigh);
-  drawing.things.push_back(wordsAt(
-      {kMargin, kMargin}, "pixel " + std::to_string(pixel_.x) + "," + std::to_string(pixel_.y) + ", " +
-                              std::to_string(rays) + " of " + std::to_string(this->rays()) + " rays"));
+  drawing.width = static_cast<int>(wide_ + kTree + 3 * kSheetMargin);
+  drawing.height = static_cast<int>(kHigh + 2 * kSheetMargin + 5 * kRowHigh);
+  drawing.things.push_back(wordsAt({kSheetMargin, kSheetMargin}, "pixel " + std::to_string(pixel_.x) + "," +
+                                                                     std::to_string(pixel_.y) + ", " +
+                                                                     std::to_string(rays) + " of " +
+                                                                     std::to_string(this->rays()) + " rays"));
   addSpace(drawing, rays);
   addTree(drawing, rays);
   addSum(drawing, rays);
@@ -109,7 +110,8 @@ void RayStory::addSpace(Drawing& drawing, int rays) const {
   const Real whole = std::max(maxComponent(tree.nodes.front().weight), 1e-30);
   drawing.things.push_back(panel.frame());
   drawing.things.push_back(surfaces_);
-  addThings(drawing, panel);
+  addLights(drawing, panel);
+  addCamera(drawing, panel);
   for (const bool shadows : {true, false})  // below, so that they hide no others
     for (const RaySegment& segment : pixel_.segments) {
       const RayNode& node = rayAt(tree, segment.node);
@@ -125,27 +127,98 @@ void RayStory::addSpace(Drawing& drawing, int rays) const {
       DrawnFrame{{0, 0}, static_cast<double>(drawing.width), static_cast<double>(drawing.height)});
 }
 
-/// The lights that have a place, and the camera.
-void RayStory::addThings(Drawing& drawing, const Panel& panel) const {
+namespace {
+
+/// The mark of a light that lies beyond the view.
+void addBeyond(Drawing& drawing, const Panel& panel, const Point2& toward, const Color& color) {
+  constexpr double kSide = 9;  // pixels
+  const Point2 at = panel.edgeAt(toward, 2 * kSide);
+  const double x = toward.x * kSide, y = toward.y * kSide;
+  const auto head = [&](double size, const Color& tint) {
+    drawing.things.push_back(DrawnTriangle{{at.x + 1.6 * size * x, at.y + 1.6 * size * y},
+                                           {at.x - 0.7 * size * y, at.y + 0.7 * size * x},
+                                           {at.x + 0.7 * size * y, at.y - 0.7 * size * x},
+                                           tint});
+    drawing.things.push_back(DrawnDisk{at, 0.5 * size * kSide, tint});
+  };
+  head(1.2, kInk);
+  head(1, color);
+}
+
+/// The star of a light at that place.
+void addStar(Drawing& drawing, const Point2& at, const Color& color) {
   constexpr int kBeams = 8;
   constexpr double kInner = 7, kOuter = 15;  // pixels
-  const Scene& scene = pixel_.scene();
-  for (const LightSource& source : scene.lights) {
-    const Vec3* position = source.light.position();
-    const auto at = position ? panel.placeOf(*position) : std::nullopt;
-    if (!at) continue;
-    const Color color = inkOf(source.light);
-    for (int i = 0; i < kBeams; ++i) {
-      const double x = math::cos(2 * kPi * i / kBeams), y = math::sin(2 * kPi * i / kBeams);
-      const Point2 from{at->x + x * kInner, at->y + y * kInner}, to{at->x + x * kOuter, at->y + y * kOuter};
-      drawing.things.push_back(DrawnLine{from, to, kInk, 4});
-      drawing.things.push_back(DrawnLine{from, to, color, 2});
-    }
-    drawing.things.push_back(DrawnDisk{*at, 5, kInk});
-    drawing.things.push_back(DrawnDisk{*at, 4, color});
+  for (int i = 0; i < kBeams; ++i) {
+    const double x = math::cos(2 * kPi * i / kBeams), y = math::sin(2 * kPi * i / kBeams);
+    const Point2 from{at.x + x * kInner, at.y + y * kInner}, to{at.x + x * kOuter, at.y + y * kOuter};
+    drawing.things.push_back(DrawnLine{from, to, kInk, 4});
+    drawing.things.push_back(DrawnLine{from, to, color, 2});
   }
+  drawing.things.push_back(DrawnDisk{at, 5, kInk});
+  drawing.things.push_back(DrawnDisk{at, 4, color});
+}
+
+/// Three arrows side by side, along the light; false if they do not lie in the view.
+bool addArrows(Drawing& drawing, const Panel& panel, const Vec3& from, const Vec3& to, const Vec3& side,
+               const Color& color) {
+  constexpr double kHead = 11;  // pixels
+  std::array<std::array<Point2, 2>, 3> arrows;
+  for (std::size_t i = 0; i < arrows.size(); ++i) {
+    const Vec3 aside = side * (static_cast<Real>(i) - 1);
+    const auto tail = panel.placeOf(from + aside), tip = panel.placeOf(to + aside);
+    if (!tail || !tip) return false;
+    arrows[i] = {*tail, *tip};
+  }
+  for (const auto& [tail, tip] : arrows) {
+    const double far = std::max(math::hypot(tip.x - tail.x, tip.y - tail.y), 1e-6);
+    const double x = (tip.x - tail.x) / far * kHead, y = (tip.y - tail.y) / far * kHead;
+    drawing.things.push_back(DrawnLine{tail, tip, kInk, 4});
+    drawing.things.push_back(DrawnLine{tail, tip, color, 2});
+    drawing.things.push_back(DrawnTriangle{{tip.x + 0.5 * x, tip.y + 0.5 * y},
+                                           {tip.x - x - y / 2, tip.y - y + x / 2},
+                                           {tip.x - x + y / 2, tip.y - y - x / 2},
+                                           color});
+  }
+  return true;
+}
+
+}  // namespace
+
+/// Lights that have a place or a direction: their symbols, or marks at the edge of the view.
+void RayStory::addLights(Drawing& drawing, const Panel& panel) const {
+  constexpr std::size_t kMostBeyond = 16;  // more would be a frame of marks
+  const Scene& scene = pixel_.scene();
   const RayNode& first = pixel_.tree().nodes.front();
-  const CameraFrame own = frame(scene.camera, pixel_.session->settings().cameraAxes);
+  const Vec3 target =
+      first.hit ? first.hit->surface.point : frame_.eye + frame_.look * length(first.ray.origin - frame_.eye);
+  for (const LightSource& source : scene.lights) {
+    const Vec3 *position = source.light.position(), *direction = source.light.direction();
+    const Color color = inkOf(source.light);
+    const Real far = length(target - frame_.eye);
+    if (!position && !direction) continue;
+    if (const auto at = position ? panel.placeOf(*position) : std::nullopt) {
+      addStar(drawing, *at, color);
+      continue;
+    }
+    if (!position) {
+      const Vec3 ahead = normalize(*direction), across = cross(ahead, target - frame_.eye);
+      const Vec3 side = length(across) > 1e-6 * far ? normalize(across) : normalize(frame_.right);
+      bool shown = false;
+      for (const Real share : {0.4, 0.25, 0.15, 0.08})
+        if (!shown)
+          shown = addArrows(drawing, panel, target - ahead * (share * far),
+                            target - ahead * (0.5 * share * far), side * (0.15 * share * far), color);
+      if (shown) continue;
+    }
+    const auto toward = panel.toward(position ? *position : target - normalize(*direction) * far);
+    if (toward && scene.lights.size() <= kMostBeyond) addBeyond(drawing, panel, *toward, color);
+  }
+}
+
+void RayStory::addCamera(Drawing& drawing, const Panel& panel) const {
+  const RayNode& first = pixel_.tree().nodes.front();
+  const CameraFrame own = frame(pixel_.scene().camera, pixel_.session->settings().cameraAxes);
   const Real far = first.hit ? length(first.hit->surface.point - own.eye) : length(frame_.eye - own.eye);
   const Real reach = 0.25 * far / std::max(length(own.look), 1e-30);
   std::array<Vec3, 4> corners;
@@ -153,22 +226,25 @@ void RayStory::addThings(Drawing& drawing, const Panel& panel) const {
     const Real x = i == 0 || i == 3 ? -0.5 : 0.5, y = i < 2 ? -0.5 : 0.5;
     corners[i] = own.eye + (own.look + own.right * x + own.up * y) * reach;
   }
-  for (std::size_t i = 0; i < 4; ++i) {
-    panel.line(drawing, own.eye, corners[i], kInk, 1, false);
-    panel.line(drawing, corners[i], corners[(i + 1) % 4], kInk, 1, false);
-  }
+  for (const bool rim : {true, false})  // seen on dark surfaces, too
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Color color = rim ? Color(1) : kInk;
+      const double width = rim ? 3.5 : 1.5;
+      panel.line(drawing, own.eye, corners[i], color, width, false);
+      panel.line(drawing, corners[i], corners[(i + 1) % 4], color, width, false);
+    }
 }
 
 void RayStory::addTree(Drawing& drawing, int rays) const {
   constexpr double kIndent = 14;
   constexpr int kMostLevels = 10;
-  const double left = wide_ + 2 * kMargin, top = kMargin + 1.5 * kRowHigh;
+  const double left = wide_ + 2 * kSheetMargin, top = kSheetMargin + 1.5 * kRowHigh;
   const double adds = left + kTree - kAdds - kEnded, ended = left + kTree - kEnded;
   const int rows = static_cast<int>(kHigh / kRowHigh), last = std::min(rays, this->rays());
   const int first = std::max(0, last - rows);  // the latest
-  drawing.things.push_back(wordsAt({left, kMargin}, "ray: what it met"));
-  drawing.things.push_back(wordsAt({adds, kMargin}, "adds"));
-  drawing.things.push_back(wordsAt({ended, kMargin}, "ended"));
+  drawing.things.push_back(wordsAt({left, kSheetMargin}, "ray: what it met"));
+  drawing.things.push_back(wordsAt({adds, kSheetMargin}, "adds"));
+  drawing.things.push_back(wordsAt({ended, kSheetMargin}, "ended"));
   for (int i = first; i < last; ++i) {
     const RayLook& looks = look(pixel_.looks(i));
     const double y = top + kRowHigh * (i - first),
@@ -189,15 +265,15 @@ void RayStory::addTree(Drawing& drawing, int rays) const {
 void RayStory::addSum(Drawing& drawing, int rays) const {
   const Session& session = *pixel_.session;
   const bool all = rays >= this->rays();
-  double x = kMargin, y = kMargin + 2 * kRowHigh + kHigh;
-  const double most = drawing.width - kMargin;
+  double x = kSheetMargin, y = kSheetMargin + 2 * kRowHigh + kHigh;
+  const double most = drawing.width - kSheetMargin;
   const std::string last = rays < 1 ? "" : stepOf(pixel_.tree(), pixel_.scene(), rays - 1);
   const std::string said = all ? pixel_.why.sentence : last;
   drawing.things.push_back(wordsAt({x, y}, cut(said, most - x)));
   y += 1.2 * kRowHigh;
   const auto add = [&](const Color& light, const std::string& words) {
     const double wide = 36 + wideOf(words);
-    if (x + wide > most && x > kMargin) x = kMargin, y += kRowHigh;
+    if (x + wide > most && x > kSheetMargin) x = kSheetMargin, y += kRowHigh;
     drawing.things.push_back(swatch({x, y}, shownColour(light, session.settings())));
     drawing.things.push_back(wordsAt({x + 24, y}, cut(words, most - x - 24)));
     x += wide;

@@ -26,7 +26,8 @@ class RayStory {
 
  private:
   void addSpace(Drawing& drawing, int rays) const;
-  void addThings(Drawing& drawing, const Panel& panel) const;
+  void addLights(Drawing& drawing, const Panel& panel) const;
+  void addCamera(Drawing& drawing, const Panel& panel) const;
   void addTree(Drawing& drawing, int rays) const;
   void addSum(Drawing& drawing, int rays) const;
 

@@ -1,9 +1,12 @@
 #include "app/view/scene_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "geometry/mesh/mesh.h"
@@ -150,6 +153,26 @@ Box3 frameAround(const std::vector<Box3>& boxes, const Vec3& eye) {
 
 }  // namespace
 
+SharedCorners sharedCorners(const std::vector<float>& corners) {
+  using Six = std::array<float, 6>;
+  const auto hash = [](const Six& corner) {
+    std::size_t sum = 0;
+    for (const float x : corner) sum = (sum ^ std::hash<float>()(x)) * 0x9e3779b97f4a7c15u;
+    return sum ^ (sum >> 32);
+  };
+  std::unordered_map<Six, std::uint32_t, decltype(hash)> known(corners.size() / 12, hash);
+  SharedCorners shared;
+  shared.indices.reserve(corners.size() / 6);
+  for (std::size_t i = 0; i < corners.size(); i += 6) {
+    Six corner;
+    std::copy_n(corners.begin() + static_cast<std::ptrdiff_t>(i), 6, corner.begin());
+    const auto [found, isNew] = known.try_emplace(corner, static_cast<std::uint32_t>(known.size()));
+    if (isNew) shared.corners.insert(shared.corners.end(), corner.begin(), corner.end());
+    shared.indices.push_back(found->second);
+  }
+  return shared;
+}
+
 MaterialLook lookOf(const Material& material) {
   const Phong phong = plainPhong(material);
   return {lookOf(phong), opacityOf(phong)};
@@ -228,6 +251,7 @@ SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled, d
         }
     }
   }
+  model.shared = sharedCorners(model.corners);
   made_ = std::move(kept);
   model.warnings = drawn.warnings(scene.file);
   if (const std::size_t all = countPlacedObjects(given); all > kMostDrawnCopies)

@@ -26,12 +26,20 @@ struct ScenePart {
   std::array<Vec3, 8> box;  ///< box of the object's own bounds, in the world: bits of the index are x, y, z
 };
 
+/// Corners that are the same, once each.
+struct SharedCorners {
+  std::vector<float> corners;          ///< position and normal, six floats for each
+  std::vector<std::uint32_t> indices;  ///< the one that each of the given corners is
+};
+SharedCorners sharedCorners(const std::vector<float>& corners);
+
 struct SceneModel {
   /// Coordinates in float are (world - origin) / scale.
   Vec3 origin;
   Real scale = 1;
   /// Position and normal, six floats for each corner of a triangle.
   std::vector<float> corners;
+  SharedCorners shared;  ///< the same for a graphics card, which is slow by corners
   std::vector<ScenePart> parts;
   std::vector<Message> warnings;  ///< warnings of shapes that are drawn coarser than others, or not at all
 

@@ -39,8 +39,8 @@ void choosePlane(Studio& studio) {
   if (!open && ImGui::IsItemHovered()) {
     besideItem();
     ImGui::SetTooltip(
-        "the picture, how many rays each pixel has, how much noise is left in it, what denoise changed, or "
-        "one of the render's `passes`");
+        "the picture, how many rays each pixel has, how much noise is left in it, what denoise changed, how "
+        "much work a sample is, or one of the render's `passes`");
   }
 }
 
@@ -111,7 +111,7 @@ void drawBar(Studio& studio) {
     return;
   }
   choosePlane(studio);
-  if (studio.workspace.reference() || !isShown(studio, "Rays")) drawComparing(view);
+  if (comparesPictures(studio)) drawComparing(view);
   if (!studio.workspace.reference()) {
     ImGui::SameLine();
     roomFor(ImGui::CalcTextSize("Compare...").x + 2 * ImGui::GetStyle().FramePadding.x);

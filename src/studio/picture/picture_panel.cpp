@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "app/view/picture_views.h"
+#include "image/comparison/false_color.h"
 #include "math/elementary.h"
 #include "studio/panels.h"
 #include "studio/picture/picture_parts.h"
@@ -26,10 +27,15 @@ constexpr float kGap = 6;               // between two pictures side by side
 void refreshPlane(Studio& studio, bool pictureChanged) {
   PictureView& view = studio.picture;
   const auto session = studio.workspace.render.session();
+  const bool showsCost = view.plane == FilmPlane::cost && view.pass.empty();
+  view.cost.want(showsCost ? session : nullptr);
+  const bool costChanged = view.cost.update();
   const std::vector<std::string_view> passes =
       session ? passesToSee(session->settings()) : std::vector<std::string_view>{};
   if (std::find(passes.begin(), passes.end(), view.pass) == passes.end()) view.pass.clear();
-  if (!session || (!pictureChanged && view.planeShown == view.plane && view.passShown == view.pass)) return;
+  if (!session ||
+      (!pictureChanged && !costChanged && view.planeShown == view.plane && view.passShown == view.pass))
+    return;
   const Film& film = session->film();
   if (pictureChanged) {
     const std::uint64_t number = studio.workspace.render.state().number;
@@ -40,14 +46,11 @@ void refreshPlane(Studio& studio, bool pictureChanged) {
   }
   view.planeShown = view.plane;
   view.passShown = view.pass;
-  if ((view.plane == FilmPlane::picture && view.pass.empty()) || film.width() != view.shown.width ||
-      film.height() != view.shown.height)
-    return;
-  const PlaneView plane = view.pass.empty()
-                              ? planeView(view.plane, film, view.shown)
-                              : passView(view.pass, film, session->settings(), session->names(), view.shown);
-  view.planeTexture.set(toBytes(plane.colours, Rounding::nearest));
-  view.planeLegend = plane.legend;
+  if (!view.showsPlane() || film.width() != view.shown.width || film.height() != view.shown.height) return;
+  view.planeMade = view.pass.empty()
+                       ? planeView(view.plane, film, view.shown, view.cost.map())
+                       : passView(view.pass, film, session->settings(), session->names(), view.shown);
+  view.planeTexture.set(toBytes(view.planeMade.colours, Rounding::nearest));
 }
 
 /// Brings the textures up to date.
@@ -133,6 +136,14 @@ FrameArea frameOf(PictureView& view, ImVec2 canvas, ImVec2 area, int width, int 
           size};
 }
 
+/// The largest area of that shape in the middle of another.
+FrameArea inside(const FrameArea& frame, int width, int height) {
+  const float zoom =
+      std::min(frame.size.x / static_cast<float>(width), frame.size.y / static_cast<float>(height));
+  const ImVec2 size{static_cast<float>(width) * zoom, static_cast<float>(height) * zoom};
+  return {{frame.low.x + (frame.size.x - size.x) / 2, frame.low.y + (frame.size.y - size.y) / 2}, size};
+}
+
 void pictureIn(const FrameArea& frame, const Texture& texture) {
   ImGui::GetWindowDrawList()->AddImage(texture.id(), frame.low,
                                        {frame.low.x + frame.size.x, frame.low.y + frame.size.y});
@@ -150,10 +161,12 @@ float caption(ImVec2 at, const char* text, float most) {
   return at.y + size.y + 2 * pad.y;
 }
 
-/// The values of each pixel in it, where the picture is magnified so much that they have room.
+/// The values of each pixel in it, of so many channels, where the picture is magnified so much that they have
+/// room.
 void numbersInPixels(const Studio& studio, const FrameArea& frame, ImVec2 low, ImVec2 high,
-                     const Picture& picture) {
+                     const Picture& picture, int channels = 3) {
   const float line = ImGui::GetTextLineHeight(), zoom = studio.picture.zoom;
+  const float half = static_cast<float>(channels) / 2;  // half the number of lines
   const ImVec2 digits = ImGui::CalcTextSize("0.000");
   if (zoom < digits.x + 6 || zoom < 3 * line + 4 || picture.width == 0) return;
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -171,47 +184,52 @@ void numbersInPixels(const Studio& studio, const FrameArea& frame, ImVec2 low, I
       const Color& c = picture.at(x, y);
       const double values[] = {c.r, c.g, c.b};
       const ImVec2 middle = frame.at((x + 0.5) / picture.width, (y + 0.5) / picture.height);
-      list.AddRectFilled({middle.x - digits.x / 2 - 3, middle.y - 1.5f * line - 2},
-                         {middle.x + digits.x / 2 + 3, middle.y + 1.5f * line + 2}, IM_COL32(0, 0, 0, 150),
+      list.AddRectFilled({middle.x - digits.x / 2 - 3, middle.y - half * line - 2},
+                         {middle.x + digits.x / 2 + 3, middle.y + half * line + 2}, IM_COL32(0, 0, 0, 150),
                          3);
-      for (int i = 0; i < 3; ++i) {
+      for (int i = 0; i < channels; ++i) {
         char text[16];
-        std::snprintf(text, sizeof text, std::abs(values[i]) < 100 ? "%.3f" : "%.3g", values[i]);
+        const bool small = std::abs(values[i]) < 100;
+        std::snprintf(text, sizeof text, channels == 1 ? "%.4g" : small ? "%.3f" : "%.3g", values[i]);
         const float wide = ImGui::CalcTextSize(text).x;
-        list.AddText({middle.x - wide / 2, middle.y + (static_cast<float>(i) - 1.5f) * line}, kColours[i],
-                     text);
+        list.AddText({middle.x - wide / 2, middle.y + (static_cast<float>(i) - half) * line},
+                     channels == 1 ? IM_COL32_WHITE : kColours[i], text);
       }
     }
   list.PopClipRect();
 }
 
-/// The scale of the false colours, at the right edge.
-void drawScale(ImVec2 low, ImVec2 high, float magnify) {
-  constexpr int kSteps = 5;  // steps of falseColour()
+/// The scale of false colours, which `colourAt` gives for places from 0 to 1, at the right edge.
+void drawScale(ImVec2 low, ImVec2 high, const ColourScale& scale, Color (*colourAt)(double)) {
+  constexpr int kSteps = 5, kBands = 30;  // steps with a number, and bands of one course of colour
   const float line = ImGui::GetTextLineHeight(), bar = line, pad = ImGui::GetStyle().FramePadding.x;
-  const float wide = bar + 3 * pad + ImGui::CalcTextSize("0.0000").x,
-              top = std::max(low.y + 1.5f * line, (low.y + high.y) / 2 - 6 * line),
+  const float wide = bar + 3 * pad + ImGui::CalcTextSize("0.00000").x,
+              top = std::max(low.y + 2.5f * line, (low.y + high.y) / 2 - 6 * line),
               bottom = std::min(high.y - 2 * line, top + 12 * line);
   if (bottom < top + kSteps * line) return;
   const ImVec2 at{high.x - wide - 8, top};
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled({at.x - pad, top - line}, {high.x - 8, bottom + line}, IM_COL32(0, 0, 0, 170), 4);
-  const auto colour = [](double value) {
-    const Color c = falseColour(value);
+  const float head = scale.unit.empty() ? line : 2 * line;
+  list.AddRectFilled({at.x - pad, top - head}, {high.x - 8, bottom + line}, IM_COL32(0, 0, 0, 170), 4);
+  const auto colour = [&](int band) {
+    const Color c = colourAt(band / double{kBands});
     return ImGui::GetColorU32(
         ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1));
   };
-  const auto height = [&](int step) { return bottom - (bottom - top) * static_cast<float>(step) / kSteps; };
-  for (int step = 0; step < kSteps; ++step) {
-    const ImU32 below = colour(step / double{kSteps}), above = colour((step + 1) / double{kSteps});
-    list.AddRectFilledMultiColor({at.x, height(step + 1)}, {at.x + bar, height(step)}, above, above, below,
-                                 below);
+  const auto height = [&](int part, int parts) {
+    return bottom - (bottom - top) * static_cast<float>(part) / static_cast<float>(parts);
+  };
+  for (int band = 0; band < kBands; ++band) {
+    const ImU32 below = colour(band), above = colour(band + 1);
+    list.AddRectFilledMultiColor({at.x, height(band + 1, kBands)}, {at.x + bar, height(band, kBands)}, above,
+                                 above, below, below);
   }
-  for (int step = 0; step <= kSteps; ++step) {
-    char text[24];
-    std::snprintf(text, sizeof text, "%.2g", step / (kSteps * static_cast<double>(magnify)));
-    list.AddText({at.x + bar + pad, height(step) - line / 2}, IM_COL32(255, 255, 255, 255), text);
-  }
+  for (int step = 0; step <= kSteps; ++step)
+    list.AddText(
+        {at.x + bar + pad, height(step, kSteps) - line / 2}, IM_COL32_WHITE,
+        ColourScale{scale.white, scale.logarithmic}.text(scale.valueAt(step / double{kSteps})).c_str());
+  if (!scale.unit.empty())
+    list.AddText({at.x, top - 1.75f * line}, IM_COL32_WHITE, std::string(scale.unit).c_str());
 }
 
 /// The levels of the picture, in the lower right corner: heights are logarithms of the counts.
@@ -288,8 +306,8 @@ void drawChainWay(const Studio& studio, const FrameArea& frame, int width, int h
 InPlaceOfPicture inPlaceOfPicture(const Studio& studio) {
   const PictureView& view = studio.picture;
   if (InPlaceOfPicture way = wayAlone(studio); !way.caption.empty()) return way;
-  if ((view.plane == FilmPlane::picture && view.pass.empty()) || view.planeTexture.empty()) return {};
-  return {&view.planeTexture, view.planeLegend};
+  if (!view.showsPlane() || view.planeTexture.empty()) return {};
+  return {&view.planeTexture, view.planeMade.legend};
 }
 
 /// The picture or pictures in the area; true with the pixel if the cursor is on one.
@@ -298,7 +316,11 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   const auto& reference = studio.workspace.reference();
   const int width = view.shown.width, height = view.shown.height;
   const InPlaceOfPicture other = inPlaceOfPicture(studio);
-  const View mode = reference && other.caption.empty() ? view.view : View::picture;
+  const bool comparable = reference && sameSize(view.reference, view.shown);
+  const bool differs = view.view == View::difference || view.view == View::falseColour;
+  const bool together = differs || view.view == View::swipe || view.view == View::sideBySide;
+  const bool refused = reference && !comparable && together && other.caption.empty();
+  const View mode = reference && other.caption.empty() && !refused ? view.view : View::picture;
   const bool two = mode == View::sideBySide;
   const ImVec2 part{two ? std::max(1.0f, (area.x - kGap) / 2) : area.x, area.y};
   const FrameArea frame = frameOf(view, canvas, part, width, height);
@@ -311,40 +333,41 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     list.PopClipRect();
   };
   const ImVec2 end{canvas.x + area.x, canvas.y + area.y};
-  const bool comparable = reference && sameSize(view.reference, view.shown);
-  const bool differs = mode == View::difference || mode == View::falseColour;
   if (mode == View::picture)
     clipped(canvas, end, frame, other.texture ? *other.texture : view.pictureTexture);
-  if (mode == View::reference) clipped(canvas, end, frame, view.referenceTexture);
+  if (mode == View::reference)
+    clipped(canvas, end, comparable ? frame : inside(frame, reference->width, reference->height),
+            view.referenceTexture);
   if (two) {
     clipped(canvas, {canvas.x + part.x, end.y}, frame, view.pictureTexture);
     clipped({canvas.x + part.x + kGap, canvas.y}, end, second, view.referenceTexture);
   }
+  float line = end.x;  // between picture and reference
   if (mode == View::swipe) {
     const float left = std::max(frame.low.x, canvas.x), right = std::min(frame.low.x + frame.size.x, end.x);
-    const float line = std::round(left + (right - left) * view.swipe);
+    line = std::round(left + (right - left) * view.swipe);
     clipped(canvas, {line, end.y}, frame, view.pictureTexture);
     clipped({line, canvas.y}, end, frame, view.referenceTexture);
     list.AddLine({line, canvas.y}, {line, end.y}, ImGui::GetColorU32(studio.palette().accent), 2);
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0) && right > left)
       view.swipe = std::clamp((ImGui::GetIO().MousePos.x - left) / (right - left), 0.0f, 1.0f);
   }
-  if (differs && comparable) clipped(canvas, end, frame, view.differenceTexture);
+  if (differs && mode != View::picture) clipped(canvas, end, frame, view.differenceTexture);
   const ImVec2 corner{canvas.x + 8, canvas.y + 8};
   float clear = canvas.y;  // below the caption
   if (!other.caption.empty()) {
-    caption(corner, other.caption.c_str(), area.x - 16);
+    clear = caption(corner, other.caption.c_str(), area.x - 16);
     landmark("caption");
-  } else if (differs && !comparable) {
-    caption(corner,
-            ("not compared: the reference has another shape, " + std::to_string(reference->width) + " x " +
-             std::to_string(reference->height) + "; the picture has " + std::to_string(width) + " x " +
-             std::to_string(height))
-                .c_str(),
-            area.x - 16);
+  } else if (refused) {
+    clear = caption(corner,
+                    ("not compared: the reference has another shape, " + std::to_string(reference->width) +
+                     " x " + std::to_string(reference->height) + "; the picture has " +
+                     std::to_string(width) + " x " + std::to_string(height))
+                        .c_str(),
+                    area.x - 16);
     landmark("caption");
   } else if (two || mode == View::swipe) {
-    caption(corner, "picture", area.x);
+    clear = caption(corner, "picture", area.x);
     const float wide = ImGui::CalcTextSize("reference").x + 2 * ImGui::GetStyle().FramePadding.x;
     caption({end.x - wide - 8, corner.y}, "reference", area.x);
   } else if (mode != View::picture) {
@@ -356,17 +379,22 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   const Picture& linear = studio.workspace.referenceIsLinear() || !reference ? view.shown : view.levels;
   if (!other.texture) {
     if (mode == View::reference) {
-      numbersInPixels(studio, frame, canvas, end, comparable ? view.reference : *reference);
-    } else if (differs && comparable) {
-      numbersInPixels(studio, frame, canvas, end, view.difference);
-    } else if (mode != View::swipe) {
-      numbersInPixels(studio, frame, canvas, two ? ImVec2(canvas.x + part.x, end.y) : end, linear);
-      if (two && comparable)
-        numbersInPixels(studio, second, {canvas.x + part.x + kGap, canvas.y}, end, view.reference);
+      if (comparable) numbersInPixels(studio, frame, {canvas.x, clear}, end, view.reference);
+    } else if (differs && mode != View::picture) {
+      numbersInPixels(studio, frame, {canvas.x, clear}, end, view.difference);
+    } else {
+      numbersInPixels(studio, frame, {canvas.x, clear}, {two ? canvas.x + part.x : line, end.y}, linear);
+      if (two) numbersInPixels(studio, second, {canvas.x + part.x + kGap, clear}, end, view.reference);
+      if (mode == View::swipe) numbersInPixels(studio, frame, {line, clear}, end, view.reference);
     }
   }
-  if (mode == View::falseColour && comparable) drawScale({canvas.x, clear}, end, view.magnify);
-  if (view.histogramShown) drawHistogram(studio, canvas, end);
+  if (mode == View::falseColour)
+    drawScale({canvas.x, clear}, end, {1 / static_cast<double>(view.magnify)}, falseColour);
+  if (other.texture == &view.planeTexture && view.planeMade.scale.white > 0) {
+    numbersInPixels(studio, frame, {canvas.x, clear}, end, view.planeMade.values, 1);
+    drawScale({canvas.x, clear}, end, view.planeMade.scale, heatColor);
+  }
+  if (view.histogramShown && comparesPictures(studio) && !studio.stage) drawHistogram(studio, canvas, end);
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const FrameArea& under = two && mouse.x > canvas.x + part.x ? second : frame;
@@ -378,7 +406,7 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   };
   x = pixelAt((mouse.x - under.low.x) / under.size.x, width);
   y = pixelAt((mouse.y - under.low.y) / under.size.y, height);
-  const bool inside = ImGui::IsItemHovered() && x >= 0 && y >= 0 && x < width && y < height;
+  const bool within = ImGui::IsItemHovered() && x >= 0 && y >= 0 && x < width && y < height;
 
   if (!other.texture && mode == View::picture) {
     list.PushClipRect(canvas, end, true);
@@ -396,7 +424,7 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     list.AddRect(low, high, IM_COL32(255, 210, 60, 255), 0, 0, 1.5f);
     list.PopClipRect();
   }
-  return inside;
+  return within;
 }
 
 /// The picture, in which a click chooses a pixel; true with the pixel if the cursor is on one.

@@ -50,7 +50,9 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
   if (state.working()) {
     char text[96];
     const std::string left = state.remaining ? ", " + durationText(*state.remaining) + " left" : "";
-    if (state.phase == BackgroundRender::Phase::building && state.fraction > 0)
+    if (hovered && state.fraction > 0)
+      std::snprintf(text, sizeof text, "%.0f %%", std::floor(100 * state.fraction));
+    else if (state.phase == BackgroundRender::Phase::building && state.fraction > 0)
       std::snprintf(text, sizeof text, "%s, %.0f %%",
                     hasTrait(workspace.document.settings(), Trait::photons) ? "sending photons" : "preparing",
                     std::floor(100 * state.fraction));
@@ -58,8 +60,6 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
       std::snprintf(text, sizeof text, "building");
     else if (state.phase == BackgroundRender::Phase::denoising)
       std::snprintf(text, sizeof text, "taking noise out");
-    else if (hovered)
-      std::snprintf(text, sizeof text, "%.0f %%", std::floor(100 * state.fraction));
     else
       std::snprintf(text, sizeof text, "%.0f %%, %s%s", std::floor(100 * state.fraction),
                     durationText(state.elapsed).c_str(), left.c_str());
@@ -83,14 +83,22 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
     ImGui::SameLine();
     ImGui::SetCursorPosY(line);
     ImGui::AlignTextToFramePadding();
-    const char* ofWhat = studio.rays.pyramid.alone ? "all ways  " : "";
-    std::string text = ofWhat + pixelText(view.shown.at(x, y), c, rounding);
+    std::string ofWhat = studio.rays.pyramid.alone ? "all ways  " : "";
+    if (const PlaneView& plane = view.planeMade;
+        ofWhat.empty() && view.showsPlane() && sameSize(plane.values, view.shown))
+      ofWhat = plane.scale.text(plane.values.at(x, y).r) + "   ";
+    // A file without linear colours is compared with what the tone makes of the picture.
+    const bool linear = !workspace.reference() || workspace.referenceIsLinear();
+    std::string text = ofWhat + pixelText(linear ? view.shown.at(x, y) : clamped, c, rounding);
     if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)
       text.resize(text.find("   ("));  // the levels
     ImGui::TextUnformatted(text.c_str());
     if (workspace.reference() && sameSize(view.reference, view.shown)) {
-      const Color& there = view.reference.at(x, y);
-      ImGui::TextDisabled("reference  %s", pixelText(there, there, rounding).c_str());
+      Picture there(1, 1);
+      there.at(0, 0) = view.reference.at(x, y);
+      const Color shown = linear ? developed(there, view.development).at(0, 0) : there.at(0, 0);
+      ImGui::TextDisabled("reference  %s%s", pixelText(there.at(0, 0), shown, rounding).c_str(),
+                          linear ? "" : "   both as shown, 0 to 1");
     }
   } else if (workspace.saving() || workspace.reading()) {
     ImGui::TextDisabled(workspace.saving() ? "writing the file" : "reading the file");

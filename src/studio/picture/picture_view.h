@@ -50,14 +50,17 @@ struct PictureView {
   View differenceView = View::picture;
   float differenceMagnify = 0;
 
-  Texture planeTexture;     ///< where another plane than the picture is seen
-  std::string planeLegend;  ///< what its colours mean
+  Texture planeTexture;  ///< where another plane than the picture is seen
+  PlaneView planeMade;   ///< what is in it, and what its colours mean
+  CostMaker cost;        ///< what it shows of the cost of pixels
   FilmPlane planeShown = FilmPlane::picture;
   std::string passShown{};
   Convergence convergence;    ///< convergence of the shown picture
   std::vector<float> noise;   ///< levels, one for each look at the render that continues
   std::uint64_t noiseOf = 0;  ///< the render's number
 
+  /// Something else of the render than its picture is seen.
+  bool showsPlane() const { return plane != FilmPlane::picture || !pass.empty(); }
   /// Takes the pixel as if it were clicked, and brings it into view.
   void goTo(int x, int y) {
     pixel.choose(x, y, {shown.width, shown.height});

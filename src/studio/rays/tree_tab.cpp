@@ -42,7 +42,7 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
   ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(ends ? 9 : 7));
   if (ends) ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.32f);
   columnHeads({"its kind and its secondary rays", "the object, light or medium that it came to",
-               "the largest channel of its contribution to the pixel: its radiance times its weight there",
+               "the luminance of its contribution to the pixel: its radiance times its weight there",
                "why it ended, or how it continues"},
               ends ? 4 : 3);
   if (const auto found = std::find(rows.begin(), rows.end(), view.scrollTo); found != rows.end()) {

@@ -29,7 +29,7 @@ using Selected = Studio::Selected;
 
 Material newMaterial() {
   Phong grey;
-  grey.diffuse = Color(0.7);
+  grey.diffuse = grey.ambient = Color(0.7);
   return {"", grey, {}};
 }
 
@@ -60,8 +60,14 @@ Affine inSight(const Studio& studio, const Shape& shape) {
   const Middle middle = middleOf(*session);
   const Vec3& updir = session->scene().camera.updir;
   const Box3 bounds = drawnBounds(shape, kEverywhere);
-  const Affine placed = placedInSight(bounds, middle.camera, updir, middle.there, middle.ahead);
-  if (bounds.empty() || bounds.unbounded()) return placed;
+  const Affine first = placedInSight(bounds, middle.camera, updir, middle.there, middle.ahead);
+  if (bounds.empty() || bounds.unbounded()) return first;
+  const Vec3 down = letDown(first * bounds, updir, [&](const Ray& ray) -> std::optional<Real> {
+    Statistics statistics;
+    const auto found = session->world().closest(ray, Faces::both, statistics);
+    return found ? std::optional(found->t) : std::nullopt;
+  });
+  const Affine placed = Affine::translation(down) * first;
   std::vector<Box3> others;
   for (const Object& object : session->scene().objects)
     if (const Box3 box = drawnBounds(object.shape, kEverywhere); !box.empty() && !box.unbounded())
@@ -146,6 +152,7 @@ std::string keyOf(const Addition& addition) {
 struct Cards {
   const Addition* pressed = nullptr;
   const Addition* over = nullptr;
+  const Addition* first = nullptr;
 };
 Cards drawCards(Studio& studio, const std::vector<Addition>& all, const char* words) {
   Cards cards;
@@ -154,6 +161,7 @@ Cards drawCards(Studio& studio, const std::vector<Addition>& all, const char* wo
   int shown = 0;
   for (const Addition& each : all) {
     if (!isAbout(each, words)) continue;
+    if (!cards.first) cards.first = &each;
     if (shown++ % row.count != 0) ImGui::SameLine();
     const ImVec2 size{row.width, std::round(row.width * 0.8f)};
     const bool inSight = ImGui::IsRectVisible({size.x, cardHeight(size.y)});
@@ -197,7 +205,8 @@ void drawAdditions(Studio& studio) {
     ImGui::SetKeyboardFocusHere();
   }
   ImGui::SetNextItemWidth(-1);
-  ImGui::InputTextWithHint("##find", "find a shape, a light or a material", words, sizeof words);
+  const bool entered = ImGui::InputTextWithHint("##find", "find a shape, a light or a material", words,
+                                                sizeof words, ImGuiInputTextFlags_EnterReturnsTrue);
   landmark("find an addition");
   static const std::pair<const char*, std::vector<Addition>> kSections[] = {
       {"Objects", additions(Addition::Kind::shape)},
@@ -211,14 +220,18 @@ void drawAdditions(Studio& studio) {
     const Cards some = drawCards(studio, list, words);
     if (some.pressed) cards.pressed = some.pressed;
     if (some.over) cards.over = some.over;
+    if (!cards.first) cards.first = some.first;
     ImGui::Spacing();
   }
   ImGui::EndChild();
-  const std::string help = !cards.over ? "a new object stands on what the middle of the picture shows"
-                                       : std::string(cards.over->name) + ": " + std::string(cards.over->help);
+  const std::string help = !cards.first ? "patterns such as checker: the button at the end of a colour's line"
+                           : !cards.over
+                               ? "a new object stands on what the middle of the picture shows"
+                               : std::string(cards.over->name) + ": " + std::string(cards.over->help);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   rowName(help);
   ImGui::PopStyleColor();
+  if (entered && words[0]) cards.pressed = cards.first;
   if (cards.pressed) {
     add(studio, *cards.pressed);
     ImGui::CloseCurrentPopup();

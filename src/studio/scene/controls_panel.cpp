@@ -78,7 +78,7 @@ std::optional<std::string> editInteger(const Option& option, const std::string& 
   int number = std::stoi(value);
   NumberLook look{option.least, option.most, "%.0f" + unitSuffix(option, number)};
   look.name = option.name;
-  look.leastWord = leastWordFor(option);
+  look.words.least = leastWordFor(option);
   look.counted = option.most <= kMostSlider;
   constexpr float kPixels = 12;  // that the mouse moves for one step
   look.speed = look.counted ? std::max(1 / kPixels, static_cast<float>(number) / 200)
@@ -92,7 +92,7 @@ std::optional<std::string> editReal(const Option& option, const std::string& val
   const double range = option.most - option.least;
   NumberLook look{option.least, option.most, "%.6g" + unitSuffix(option, number)};
   look.name = option.name;
-  look.leastWord = leastWordFor(option);
+  look.words.least = leastWordFor(option);
   if (range <= kMostSlider)
     look.logarithmic = range > 10;
   else
@@ -296,8 +296,27 @@ void drawControls(Studio& studio) {
     return isAbout(option, filter) && (changed || !onlyChanged);
   };
   ImGui::BeginChild("options", {0, 0}, false, ImGuiWindowFlags_NavFlattened);
+  const std::string_view words = filter, cameraField = cameraFieldMeant(words);
+  const bool asksWhy = words == "black" || words == "dark" || words == "why";
+  const bool hinted = asksWhy || !cameraField.empty();
+  if (asksWhy) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextColored(studio.palette().changed,
+                       "Click on the black pixel of the picture: the panel Rays says why, and what to try.");
+    landmark("where to look");
+    ImGui::PopTextWrapPos();
+  }
+  if (!cameraField.empty()) {
+    ImGui::TextColored(studio.palette().changed, "%s: in the panel Scene, camera",
+                       std::string(cameraField).c_str());
+    landmark("camera field");
+    if (ImGui::IsItemClicked()) {
+      studio.select(Studio::Selected::camera, 0);
+      studio.show("Scene");
+    }
+  }
   std::string_view group;
-  bool shown = false, table = false, found = false;
+  bool shown = false, table = false, found = hinted;
   for (const Option& option : options()) {
     if (!wanted(option)) continue;
     found = true;
@@ -315,14 +334,6 @@ void drawControls(Studio& studio) {
     if (table) row(studio, option, defaults, now);
   }
   if (table) ImGui::EndTable();
-  if (const std::string_view words = filter; words == "black" || words == "dark" || words == "why") {
-    ImGui::PushTextWrapPos();
-    ImGui::TextColored(studio.palette().changed,
-                       "Click on the black pixel of the picture: the panel Rays says why, and what to try.");
-    landmark("where to look");
-    ImGui::PopTextWrapPos();
-    found = true;
-  }
   if (!found) {
     const std::string among = onlyChanged ? " among the options that were changed" : "";
     ImGui::PushTextWrapPos();

@@ -140,7 +140,7 @@ struct PictureCorner {
 struct SceneDrawer::State {
   unsigned surface = 0, line = 0, pictures = 0, copy = 0;  // programs
   unsigned surfaceArray = 0, lineArray = 0, pictureArray = 0, nothing = 0;
-  unsigned surfaceBuffer = 0, edgeBuffer = 0, lineBuffer = 0, pictureBuffer = 0;
+  unsigned surfaceBuffer = 0, triangleBuffer = 0, edgeBuffer = 0, lineBuffer = 0, pictureBuffer = 0;
   unsigned plain = 0, texture = 0, depth = 0;  // drawn into, one sample a pixel
   unsigned smooth = 0, mean = 0;               // the mean of several
   int width = 0, height = 0;
@@ -148,6 +148,7 @@ struct SceneDrawer::State {
   Vec3 eye, inside;
   bool flat = false;
   std::vector<DrawLight> lights;
+  std::vector<std::uint32_t> indices;  // corners of triangles
   SeeThrough seeThrough;
   std::optional<SpaceDrawing> shown;
   std::size_t steps = 0;  // number of kPlaces that are in the mean
@@ -201,7 +202,8 @@ SceneDrawer::SceneDrawer() : state_(std::make_unique<State>()) {
   s.copy = linkProgram(kCopyVertex, kCopyFragment);
   for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray, &s.nothing})
     glGenVertexArrays(1, array);
-  for (unsigned* buffer : {&s.surfaceBuffer, &s.edgeBuffer, &s.lineBuffer, &s.pictureBuffer})
+  for (unsigned* buffer :
+       {&s.surfaceBuffer, &s.triangleBuffer, &s.edgeBuffer, &s.lineBuffer, &s.pictureBuffer})
     glGenBuffers(1, buffer);
   for (unsigned* frame : {&s.smooth, &s.plain}) glGenFramebuffers(1, frame);
   for (unsigned* picture : {&s.texture, &s.mean, &s.depth}) glGenTextures(1, picture);
@@ -228,17 +230,26 @@ SceneDrawer::~SceneDrawer() {
   for (unsigned program : {s.surface, s.line, s.pictures, s.copy}) glDeleteProgram(program);
   for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray, &s.nothing})
     glDeleteVertexArrays(1, array);
-  for (unsigned* buffer : {&s.surfaceBuffer, &s.edgeBuffer, &s.lineBuffer, &s.pictureBuffer})
+  for (unsigned* buffer :
+       {&s.surfaceBuffer, &s.triangleBuffer, &s.edgeBuffer, &s.lineBuffer, &s.pictureBuffer})
     glDeleteBuffers(1, buffer);
   for (unsigned* frame : {&s.smooth, &s.plain}) glDeleteFramebuffers(1, frame);
   for (unsigned* picture : {&s.texture, &s.mean, &s.depth}) glDeleteTextures(1, picture);
 }
 
-void SceneDrawer::setCorners(const std::vector<float>& corners) {
-  glBindBuffer(GL_ARRAY_BUFFER, state_->surfaceBuffer);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(corners.size() * sizeof(float)), corners.data(),
-               GL_STATIC_DRAW);
-  state_->shown.reset();
+void SceneDrawer::setCorners(const SharedCorners& shared) {
+  State& s = *state_;
+  const auto fill = [](unsigned kind, unsigned buffer, const auto& values) {
+    glBindBuffer(kind, buffer);
+    glBufferData(kind, static_cast<std::ptrdiff_t>(values.size() * sizeof(values[0])), values.data(),
+                 GL_STATIC_DRAW);
+  };
+  glBindVertexArray(s.surfaceArray);
+  fill(GL_ARRAY_BUFFER, s.surfaceBuffer, shared.corners);
+  fill(GL_ELEMENT_ARRAY_BUFFER, s.triangleBuffer, shared.indices);
+  glBindVertexArray(0);
+  s.indices = shared.indices;
+  s.shown.reset();
 }
 
 std::uint64_t SceneDrawer::drawn() const { return state_->drawn; }
@@ -356,6 +367,7 @@ void SceneDrawer::State::draw(const std::vector<DrawSurface>& parts, bool asWire
   glUniform1i(glGetUniformLocation(surface, "flatly"), flat);
   shineOn();
   glBindVertexArray(surfaceArray);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangleBuffer);
   const int colour = glGetUniformLocation(surface, "colour"), wall = glGetUniformLocation(surface, "wall");
   for (const DrawSurface& part : parts) {
     glUniform4f(colour, static_cast<float>(part.colour.r), static_cast<float>(part.colour.g),
@@ -364,7 +376,8 @@ void SceneDrawer::State::draw(const std::vector<DrawSurface>& parts, bool asWire
     if (asWires)
       edges(part);
     else
-      glDrawArrays(GL_TRIANGLES, static_cast<int>(part.first), static_cast<int>(part.count));
+      glDrawElements(GL_TRIANGLES, static_cast<int>(part.count), GL_UNSIGNED_INT,
+                     reinterpret_cast<const void*>(part.first * sizeof(std::uint32_t)));
   }
 }
 
@@ -391,8 +404,10 @@ void SceneDrawer::State::wires(const std::vector<DrawSurface>& parts) { draw(par
 void SceneDrawer::State::edges(const DrawSurface& part) const {
   std::vector<unsigned> ends;
   ends.reserve(part.count * 2);
-  for (auto corner = static_cast<unsigned>(part.first); corner < part.first + part.count; corner += 3)
-    ends.insert(ends.end(), {corner, corner + 1, corner + 1, corner + 2, corner + 2, corner});
+  for (std::size_t i = part.first; i < part.first + part.count; i += 3) {
+    const unsigned a = indices[i], b = indices[i + 1], c = indices[i + 2];
+    ends.insert(ends.end(), {a, b, b, c, c, a});
+  }
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, edgeBuffer);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<std::ptrdiff_t>(ends.size() * sizeof(unsigned)),
                ends.data(), GL_STREAM_DRAW);

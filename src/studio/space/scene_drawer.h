@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/view/orbit_camera.h"
+#include "app/view/scene_model.h"
 #include "math/color.h"
 
 namespace trace::studio {
@@ -25,7 +26,7 @@ struct DrawLine {
   bool operator==(const DrawLine&) const = default;
 };
 
-/// Triangles, by the corners of SceneDrawer::setCorners().
+/// Triangles, by the indices of SceneDrawer::setCorners().
 struct DrawSurface {
   std::size_t first, count;
   Color colour;
@@ -75,8 +76,7 @@ class SceneDrawer {
   SceneDrawer(const SceneDrawer&) = delete;
   SceneDrawer& operator=(const SceneDrawer&) = delete;
 
-  /// Six floats for each corner: position and normal.
-  void setCorners(const std::vector<float>& corners);
+  void setCorners(const SharedCorners& corners);
   /// Draws it plainly if it is not what was drawn last: one sample a pixel, surfaces that others show through
   /// in no order. Else, if it `rests`, the next step on the way to a smooth picture. Row 0 of the texture is
   /// at the bottom.

@@ -55,7 +55,7 @@ void updateModel(Studio& studio) {
   if (auto made = view.modelTask.take(); made && made->file == view.modelOf) {
     if (made->model.warnings != view.model.warnings) studio.workspace.report(made->model.warnings);
     view.model = std::move(made->model);
-    view.drawer->setCorners(view.model.corners);
+    view.drawer->setCorners(view.model.shared);
     view.built = true;
   }
 }
@@ -92,13 +92,13 @@ void frameRays(Studio& studio) {
   const bool shown = pixel && pixel->x == view.clickedX && pixel->y == view.clickedY;
   if (!view.frameDue || !shown || ImGui::IsMouseDown(0)) return;
   view.frameDue = false;
-  Box3 box = boundsOf(pixel->segments);
+  constexpr Real kFar = 4;  // times the size of what the camera sees
+  Box3 box = boundsOf(pixel->segments, kFar * view.size);
   if (view.fromCamera || box.empty()) return;
   const Vec3 least = Vec3(1, 1, 1) * (0.2 * view.size);  // a single place is seen with its surroundings
   const Vec3 room{std::max(0.0, least.x - box.size().x / 2), std::max(0.0, least.y - box.size().y / 2),
                   std::max(0.0, least.z - box.size().z / 2)};
   box = {box.low - room, box.high + room};
-  if (!(length(box.size()) < 8 * view.size)) return;
   view.orbit.lookAt(box);
   const auto session = studio.workspace.render.session();
   if (!session) return;
@@ -108,6 +108,21 @@ void frameRays(Studio& studio) {
   view.orbit =
       inSight(view.orbit, hits, session->world(), view.roomOpened ? view.walls : std::vector<std::uint32_t>{},
               session->scene().camera.position);
+}
+
+/// Parts of one look that follow each other are drawn as one.
+void addOrExtend(std::vector<DrawSurface>& parts, const DrawSurface& part) {
+  if (!parts.empty()) {
+    DrawSurface& last = parts.back();
+    DrawSurface both = part;
+    both.first = last.first;
+    both.count = last.count;
+    if (both == last && last.first + last.count == part.first) {
+      last.count += part.count;
+      return;
+    }
+  }
+  parts.push_back(part);
 }
 
 void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
@@ -124,7 +139,7 @@ void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
       surface.wall = false;
       drawing.wires.push_back(surface);
     } else {
-      (surface.opacity < 1 ? drawing.clear : drawing.solid).push_back(surface);
+      addOrExtend(surface.opacity < 1 ? drawing.clear : drawing.solid, surface);
     }
   }
 }

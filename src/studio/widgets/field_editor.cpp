@@ -27,7 +27,8 @@ bool drag(const FieldFacts& facts, double* values, int count) {
   const float speed = share ? 0.005f : static_cast<float>(std::max(0.01, largest / 100));
   const std::string format = kFormat + unitAfter(facts.unit, count == 1 ? values[0] : 0);
   const std::string name = saidName(facts.name);
-  return editNumbersInRow(values, count, {facts.least, facts.most, format, speed, false, true, name});
+  return editNumbersInRow(values, count,
+                          {facts.least, facts.most, format, speed, false, true, name, {{}, facts.unlimited}});
 }
 
 /// A file that is named, and not chosen here.

@@ -9,9 +9,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "base/field.h"
+#include "base/find_field.h"
 #include "base/text.h"
 #include "geometry/field_value.h"
 #include "geometry/shapes/surfaces/heights.h"
@@ -28,6 +30,7 @@ struct FieldFacts {
   std::string_view unit;
   double least = -kNoLimit, most = kNoLimit;
   std::string_view name{};
+  std::optional<double> unlimited{};  ///< its usual value, if that is infinite
 };
 
 // Each draws the widget and returns true when the value has changed.
@@ -112,13 +115,15 @@ class FieldsWithin {
 /// The field as remarks name it: "material 2: diffuse brick a".
 std::string saidName(std::string_view field);
 
-/// One field; calls changed(keyword) after a change. Objects are edited as objects; materials of a fractal
-/// stay as the file gave them.
+/// One field, whose value is `usual` where a scene gives none; calls changed(keyword) after a change. Objects
+/// are edited as objects; materials of a fractal stay as the file gave them.
 template <class Field, class Value, class Changed>
-void editField(const Field& field, Value& value, Changed&& changed) {
+void editField(const Field& field, Value& value, const Value& usual, Changed&& changed) {
   if constexpr (
       !requires { value.list(); } && !requires { value.indices; }) {
-    const FieldFacts facts{field.unit, field.least, field.most, field.keyword};
+    FieldFacts facts{field.unit, field.least, field.most, field.keyword, {}};
+    if constexpr (std::is_same_v<Value, Real>)
+      if (std::isinf(usual)) facts.unlimited = usual;
     ImGui::PushID(field.keyword.data());
     fieldName(field.keyword, field.help, rangeText(facts));
     if (editValue(facts, value)) changed(field.keyword);
@@ -126,10 +131,17 @@ void editField(const Field& field, Value& value, Changed&& changed) {
   }
 }
 
+template <class Field, class Value, class Changed>
+void editField(const Field& field, Value& value, Changed&& changed) {
+  editField(field, value, value, changed);
+}
+
 /// All fields of the struct; calls changed(keyword) after a change. Between beginFields() and endFields().
 template <class Struct, class Changed>
 void editFields(Struct& target, Changed&& changed) {
-  forEachField<Struct>([&](const auto& field) { editField(field, target.*field.member, changed); });
+  [[maybe_unused]] static const Struct usual{};
+  forEachField<Struct>(
+      [&](const auto& field) { editField(field, target.*field.member, usual.*field.member, changed); });
 }
 /// Edits the fields of a shape.
 template <class Changed>
@@ -139,7 +151,12 @@ void editFields(Shape& shape, Changed&& changed) {
 /// Edits the fields of a light.
 template <class Changed>
 void editFields(Light& light, Changed&& changed) {
-  editEachField(light, [&](const LightField& field, auto& value) { editField(field, value, changed); });
+  const Light usual(light.type());
+  editEachField(light, [&]<class Value>(const LightField& field, Value& value) {
+    const Value* other = nullptr;
+    if constexpr (std::is_same_v<Value, Real>) other = findValue<Real>(usual, field.keyword);
+    editField(field, value, other ? *other : value, changed);
+  });
 }
 
 // ------------------------------------------------------------------------------------------------------

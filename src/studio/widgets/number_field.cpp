@@ -11,7 +11,6 @@
 #include <optional>
 #include <utility>
 
-#include "app/editing/short_number.h"
 #include "app/editing/typed_value.h"
 #include "base/field.h"
 #include "base/text.h"
@@ -45,9 +44,10 @@ Settled<Value> settle(ImGuiID id, const Value& shown, bool changed, bool typing)
 
 std::string numberRange(const NumberLook& look, bool whole) {
   const std::string number = whole ? "a whole number" : "a number";
+  const std::string word = look.words.least.empty() ? "" : std::string(look.words.least) + ", or ";
   const bool below = look.least > -kNoLimit && look.clamped, above = look.most < kNoLimit && look.clamped;
-  if (below && above) return toText(look.least) + " to " + toText(look.most);
-  if (below) return toText(look.least) + " or more";
+  if (below && above) return word + toText(look.least) + " to " + toText(look.most);
+  if (below) return word + toText(look.least) + " or more";
   return above ? toText(look.most) + " or less" : number;
 }
 
@@ -84,7 +84,7 @@ std::optional<double> numberIn(const std::string& typed, const NumberLook& look,
     return {};
   }
   const std::string text = typed.substr(first, typed.find_last_not_of(" \t") + 1 - first);
-  if (!look.leastWord.empty() && text == look.leastWord) return look.least;
+  if (const std::optional<double> meant = look.words.meaning(text, look.least)) return meant;
   const std::optional<ParsedNumber> number = parseNumber(text);
   if (number && number->length == text.size()) return taken(number->value, look, whole);
   remark(look, whole, '"' + text + '"', "not taken" + commaHint(text));
@@ -109,10 +109,12 @@ Settled<std::string> typeNumber(const char* label, ImGuiID id) {
   return settle(id, now, changed, typing);
 }
 
-bool editNumberField(const char* label, double& value, const NumberLook& look, bool whole) {
+bool editNumberField(const char* label, double& value, const NumberLook& given, bool whole) {
   const ImGuiID id = ImGui::GetID(label);
+  NumberLook look = given;
+  if (std::isinf(value)) look.words.unlimited = value;
   const auto take = [&](const std::optional<double>& now) {
-    if (!now || *now == value || !std::isfinite(*now)) return false;
+    if (!now || *now == value || std::isnan(*now)) return false;
     value = *now;
     return true;
   };
@@ -125,7 +127,7 @@ bool editNumberField(const char* label, double& value, const NumberLook& look, b
   char full[64];
   std::snprintf(full, sizeof full, look.format.c_str(), value);
   const float room = ImGui::CalcItemWidth() - ImGui::GetStyle().FramePadding.x / 2;
-  const std::string_view word = value == look.least ? look.leastWord : value == kNoLimit ? "no limit" : "";
+  const std::string_view word = look.words.of(value, look.least);
   const std::string text =
       !word.empty() ? std::string(word) : shortNumber(value, look.format, [room](const std::string& spelt) {
         return ImGui::CalcTextSize(spelt.c_str()).x <= room;

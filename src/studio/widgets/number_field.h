@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "app/editing/short_number.h"
+
 namespace trace::studio {
 
 struct NumberLook {
@@ -14,9 +16,9 @@ struct NumberLook {
   float speed = 0;           ///< for each pixel that it is dragged; 0: a slider
   bool logarithmic = false;  ///< the slider
   bool clamped = true;
-  std::string_view name{};       ///< for remarks
-  std::string_view leastWord{};  ///< shown, and accepted, in place of the least number; "" if none is
-  bool counted = false;          ///< buttons for one more and one less, where they have room
+  std::string_view name{};  ///< for remarks
+  NumberWords words{};      ///< shown, and accepted, in place of numbers
+  bool counted = false;     ///< buttons for one more and one less, where they have room
 };
 
 /// The text after the number: " rays", of one " ray"; "" without a unit.
