@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "base/text.h"
+#include "geometry/field_value.h"
 #include "geometry/shape.h"
 #include "scene/option_words.h"
 #include "scene/options.h"

@@ -41,10 +41,10 @@ class Eye {
   Real brightness(const Vec3& from, const Vec3& direction, int sample = 0) const {
     Tracer tracer(world_, settings_);
     const Ray ray{from, direction};
-    Interfaces inside = tracer.interfacesAt(from);
-    auto hit = tracer.cast(ray, RayKind::camera, inside);
-    EXPECT_TRUE(hit);
-    return integrator_->radiance(tracer, Sampler(rules_, 0, 0, sample), {ray, std::move(hit), inside}).g;
+    const CameraRay camera(ray, tracer.interfacesAt(from),
+                           [&](Interfaces& inside) { return tracer.cast(ray, RayKind::camera, inside); });
+    EXPECT_TRUE(camera.hit);
+    return integrator_->radiance(tracer, Sampler(rules_, 0, 0, sample), camera).g;
   }
   const World& world() const { return world_; }
 

@@ -22,10 +22,6 @@ struct TracedScene {
   Size size;
 };
 
-struct PixelPlace {
-  int x = 0, y = 0;  ///< y = 0 at the top
-};
-
 struct PixelCause {
   struct Part {
     std::string name;  ///< "the light of lamp on floor"

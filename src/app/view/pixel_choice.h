@@ -5,14 +5,9 @@
 #include <cmath>
 #include <optional>
 
-#include "render/picture/render.h"
+#include "render/samples/picture_size.h"
 
 namespace trace {
-
-struct PixelPlace {
-  int x = 0, y = 0;
-  bool operator==(const PixelPlace&) const = default;
-};
 
 class PixelChoice {
  public:

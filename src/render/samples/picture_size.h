@@ -12,6 +12,13 @@ namespace trace {
 struct Size {
   int width = 0, height = 0;
 };
+
+/// A pixel of a picture; y = 0 at the top.
+struct PixelPlace {
+  int x = 0, y = 0;
+  bool operator==(const PixelPlace&) const = default;
+};
+
 /// The size of the picture: height 0 in the settings becomes floor(width / aspect ratio + 0.5), at least 1.
 /// Throws Error(Fault::limit) if that is beyond what a picture can have.
 Size pictureSize(const Settings& settings, const Camera& camera);
