@@ -277,9 +277,14 @@ void expectFormsAgree(Session& session, bool draws) {
       {size.width / 2, size.height / 2}, {1, size.height - 2}, {size.width - 2, 1}};
   for (const auto& [x, y] : pixels) {
     const Explanation explanation = session.explain(x, y, 0);
-    const std::vector<ExplainedRay> rays = explainedRays(explanation.tree, session.scene());
-    const PixelFacts facts{session.scene(),   explanation, rays,
-                           size.width,        size.height, session.film().ofSamples(x, y),
+    const Scene& scene = session.sceneOf(explanation.tree);  // particles are others at each moment
+    const std::vector<ExplainedRay> rays = explainedRays(explanation.tree, scene);
+    const PixelFacts facts{scene,
+                           explanation,
+                           rays,
+                           size.width,
+                           size.height,
+                           session.film().ofSamples(x, y),
                            session.settings()};
     EXPECT_TRUE(facts.agrees());
     const json all = json::parse(explainJson(facts));
@@ -312,8 +317,7 @@ void expectFormsAgree(Session& session, bool draws) {
       told += line.find("* ") != line.npos && line.find(" through ") != line.npos;
     EXPECT_EQ(told, filters) << text;
     if (!draws) continue;
-    EXPECT_GT(toSvg(drawRays(session.scene(), session.settings(), session.worldOf(explanation.tree),
-                             explanation.tree))
+    EXPECT_GT(toSvg(drawRays(scene, session.settings(), session.worldOf(explanation.tree), explanation.tree))
                   .size(),
               1000u);
   }
