@@ -513,7 +513,7 @@ TEST(RayPatch, LanternsThatAreWrittenAnewAreTheSame) {
     if (wanted.name.empty() && !material.name.empty()) ++named, material.name.clear();
     EXPECT_TRUE(rayfile::sameObject(is, is.objects[i], scene, scene.objects[i])) << i;
   }
-  EXPECT_EQ(named, 2u);
+  EXPECT_EQ(named, 3u);
   ASSERT_EQ(is.lights.size(), scene.lights.size());
   for (std::size_t i = 0; i < is.lights.size(); ++i)
     EXPECT_EQ(is.lights[i].light, scene.lights[i].light) << i;

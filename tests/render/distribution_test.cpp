@@ -87,7 +87,7 @@ TEST(DepthOfField, FocusOnAnObjectOrAPointIsFocusAtItsDistance) {
     EXPECT_NE(std::string(error.what()).find("no object of the scene is called \"lump\""), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("lamp"), std::string::npos) << "did you mean";
   }
-  settings.focusOn = {.object = "sphere"};
+  settings.focusOn = {.object = std::string(scene.objects[0].shape.keyword())};
   try {
     build(scene, settings);
     ADD_FAILURE();
