@@ -27,9 +27,9 @@ constexpr Real kInset = 1e-7;
 /// Looks at the budget that all lines of a grid may take, unless more is wanted: half a minute's work at
 /// most. One line through a usual shape takes one or two, one through a Mandelbulb of 10 iterations 50.
 constexpr double kMostLooks = 1 << 16;
-/// The steps of a line, on average, where a surface is found at all. The search gives up at 150: then what it
-/// finds is noise.
-constexpr double kMostOfALine = 120;
+/// The steps of a line, on average, where a surface is found at all. The search gives up at 150, and a line
+/// that misses the shape's bounds takes none: then what it finds is noise.
+constexpr double kMostOfALine = 110;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 struct Sample {
