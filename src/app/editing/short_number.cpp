@@ -1,20 +1,16 @@
 #include "app/editing/short_number.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+
+#include "formats/words.h"
 
 namespace trace {
 namespace {
 
 constexpr std::string_view kUnlimited = "no limit";
-
-bool sameWord(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
 
 std::string printed(const char* format, double value) {
   char text[400];

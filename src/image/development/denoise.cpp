@@ -212,9 +212,6 @@ struct Filter {
     }
   }
 
-  /// The rows y0 <= y < y1 of the result.
-  void take(int y0, int y1, Picture& result) const;
-
   int width, height;
   const std::vector<double>& share;
   std::array<std::vector<Bordered>, 2> half;   ///< three channels each
@@ -222,101 +219,121 @@ struct Filter {
   std::array<Feature, 2> features;
 };
 
-void Filter::take(int y0, int y1, Picture& result) const {
-  const int rows = y1 - y0;
-  struct Sum {
-    std::array<float, 3> color{};
-    float weight = 0, squares = 0;
-    void add(const std::array<float, 3>& c, float by) {
-      for (std::size_t i = 0; i < 3; ++i) color[i] += c[i] * by;
-      weight += by;
-      squares += by * by;
-    }
-    Color mean() const { return Color(color[0], color[1], color[2]) / weight; }  // at least the pixel itself
-    double count() const { return weight * weight / squares; }
-  };
-  struct Sums {
-    /// By surfaces and a patch, by surfaces and a small one; then by the patch without surfaces.
-    std::array<Sum, 3> by;
-    /// Each makes up for those before it, as far as these have too few pixels to be calm.
-    Color mean() const {
-      Color mean = by[2].mean();
-      for (std::size_t i = 2; i-- > 0;)
-        if (by[i].weight > 0)
-          mean = lerp(std::max(0.0, (kEnough - by[i].count()) / (kEnough - 1)), by[i].mean(), mean);
-      return mean;
-    }
-  };
-  const auto pixels = static_cast<std::size_t>(rows) * static_cast<std::size_t>(width);
-  std::vector<Sums> sums[2];
-  for (auto& all : sums) all.resize(pixels);
-  const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-  };
-  Plane apartHere(width + 2 * kPatch, rows + 2 * kPatch);
-  Plane across(width, rows + 2 * kPatch);  // sums of 2 kPatch + 1 beside one another
-  // The distance of the patch around (x, y), or a smaller one, from that at the offset.
-  const auto ofPatch = [&](int x, int y, int reach) {
-    float sum = 0;
-    for (int j = kPatch - reach; j <= kPatch + reach; ++j)
-      if (reach == kPatch)
-        sum += across.row(y - y0 + j)[x];
-      else
-        for (int i = kPatch - reach; i <= kPatch + reach; ++i) sum += apartHere.row(y - y0 + j)[x + i];
-    return std::max(0.0f, sum / static_cast<float>((2 * reach + 1) * (2 * reach + 1) * 3));
-  };
-  const auto isAlone = [&](std::size_t pixel) {
-    return std::min(sums[0][pixel].by[0].count(), sums[1][pixel].by[0].count()) < kEnough;
-  };
-  std::vector<char> alone(pixels, 0);
-  for (const bool again : {false, true}) {  // for those that the whole patch has left alone
-    for (int y = y0; again && y < y1; ++y)
-      for (int x = 0; x < width; ++x) alone[at(x, y)] = known(x, y) && isAlone(at(x, y));
-    if (again && std::find(alone.begin(), alone.end(), 1) == alone.end()) break;
+/// A weighted mean of pixels.
+struct Sum {
+  std::array<float, 3> color{};
+  float weight = 0, squares = 0;
+  void add(const std::array<float, 3>& c, float by) {
+    for (std::size_t i = 0; i < 3; ++i) color[i] += c[i] * by;
+    weight += by;
+    squares += by * by;
+  }
+  Color mean() const { return Color(color[0], color[1], color[2]) / weight; }
+  /// So many pixels of equal weight are as calm.
+  double count() const { return weight * weight / squares; }
+};
+
+struct Sums {
+  Sum ofPatch, ofSmallPatch;  ///< by patches and surfaces
+  Sum ofColors;               ///< by the patch without surfaces
+  /// Each makes up for those before it, as far as these have too few pixels to be calm.
+  Color mean() const {
+    Color mean = ofColors.mean();
+    for (const Sum* sum : {&ofSmallPatch, &ofPatch})
+      if (sum->weight > 0)
+        mean = lerp(std::max(0.0, (kEnough - sum->count()) / (kEnough - 1)), sum->mean(), mean);
+    return mean;
+  }
+};
+
+/// The rows y0 <= y < y1 of the result.
+class FilteredRows {
+ public:
+  FilteredRows(const Filter& filter, int y0, int y1)
+      : f_(filter),
+        y0_(y0),
+        y1_(y1),
+        alone_(static_cast<std::size_t>(y1 - y0) * static_cast<std::size_t>(f_.width), 0),
+        apart_(f_.width + 2 * kPatch, y1 - y0 + 2 * kPatch),
+        across_(f_.width, apart_.height) {
+    for (auto& all : sums_) all.resize(alone_.size());
+    compare(kPatch);
+    if (findAlone()) compare(kSmallPatch);
+  }
+
+  void store(Picture& result) const {
+    for (int y = y0_; y < y1_; ++y)
+      for (int x = 0; x < f_.width; ++x) {
+        if (!f_.known(x, y)) continue;
+        const double first = f_.share[f_.index(x, y)];
+        result.at(x, y) = sums_[0][at(x, y)].mean() * first + sums_[1][at(x, y)].mean() * (1 - first);
+      }
+  }
+
+ private:
+  std::size_t at(int x, int y) const { return f_.index(x, y - y0_); }
+
+  /// Compares all pixels with those within reach by their patches; with small ones those that are alone.
+  void compare(int reach) {
     for (int dy = -kReach; dy <= kReach; ++dy)
       for (int dx = -kReach; dx <= kReach; ++dx)
         for (int which = 0; which < 2; ++which) {
           lookAtBudget();
-          for (int y = 0; y < apartHere.height; ++y) apart(which, y0 + y - kPatch, dx, dy, apartHere.row(y));
-          for (int y = 0; !again && y < across.height; ++y)
-            for (int x = 0; x < width; ++x) {
-              float sum = 0;
-              for (int i = 0; i <= 2 * kPatch; ++i) sum += apartHere.row(y)[x + i];
-              across.row(y)[x] = sum;
-            }
-          const std::vector<Bordered>& other = half[static_cast<std::size_t>(1 - which)];
-          for (int y = y0; y < y1; ++y)
-            for (int x = 0; x < width; ++x) {
-              const int u = x + dx, v = y + dy;
-              if (again && !alone[at(x, y)]) continue;
-              if (u < 0 || v < 0 || u >= width || v >= height || !known(x, y) || !known(u, v)) continue;
-              Sums& sum = sums[1 - which][at(x, y)];
-              const auto add = [&](std::size_t i, float apart) {
-                if (apart < kTooFar)
-                  sum.by[i].add({other[0].row(v)[u], other[1].row(v)[u], other[2].row(v)[u]},
-                                weightOf(apart));
-              };
-              const float patch = again ? 0 : ofPatch(x, y, kPatch);
-              if (patch >= kTooFar) continue;
-              float surfaces = 0;
-              for (const Feature& feature : features)
-                surfaces = std::max(surfaces, feature.apart(x, y, u, v));
-              if (again) {
-                add(1, std::max(surfaces, ofPatch(x, y, kSmallPatch)));
-              } else {
-                add(0, std::max(surfaces, patch));
-                add(2, patch);
-              }
-            }
+          measure(which, dx, dy, reach);
+          for (int y = y0_; y < y1_; ++y)
+            for (int x = 0; x < f_.width; ++x)
+              if (reach == kPatch || alone_[at(x, y)]) weigh(which, x, y, x + dx, y + dy, reach);
         }
   }
-  for (int y = y0; y < y1; ++y)
-    for (int x = 0; x < width; ++x) {
-      if (!known(x, y)) continue;
-      const double first = share[index(x, y)];
-      result.at(x, y) = sums[0][at(x, y)].mean() * first + sums[1][at(x, y)].mean() * (1 - first);
+
+  /// How far pixels are apart at an offset, and the sums across patches.
+  void measure(int which, int dx, int dy, int reach) {
+    for (int y = 0; y < apart_.height; ++y) {
+      f_.apart(which, y0_ + y - kPatch, dx, dy, apart_.row(y));
+      for (int x = 0; x < f_.width; ++x) {
+        float sum = 0;
+        for (int i = kPatch - reach; i <= kPatch + reach; ++i) sum += apart_.row(y)[x + i];
+        across_.row(y)[x] = sum;
+      }
     }
-}
+  }
+
+  /// Adds the pixel (u, v) to the mean of (x, y), in the half that did not decide.
+  void weigh(int which, int x, int y, int u, int v, int reach) {
+    if (u < 0 || v < 0 || u >= f_.width || v >= f_.height || !f_.known(x, y) || !f_.known(u, v)) return;
+    float patch = 0;
+    for (int j = kPatch - reach; j <= kPatch + reach; ++j) patch += across_.row(y - y0_ + j)[x];
+    patch = std::max(0.0f, patch / static_cast<float>((2 * reach + 1) * (2 * reach + 1) * 3));
+    if (patch >= kTooFar) return;
+    float all = patch;
+    for (const Feature& feature : f_.features) all = std::max(all, feature.apart(x, y, u, v));
+    const std::vector<Bordered>& other = f_.half[static_cast<std::size_t>(1 - which)];
+    const std::array<float, 3> color{other[0].row(v)[u], other[1].row(v)[u], other[2].row(v)[u]};
+    Sums& sums = sums_[1 - which][at(x, y)];
+    if (all < kTooFar) (reach == kPatch ? sums.ofPatch : sums.ofSmallPatch).add(color, weightOf(all));
+    if (reach == kPatch) sums.ofColors.add(color, weightOf(patch));
+  }
+
+  /// The pixels that have too few like them by the whole patch; false if there are none.
+  bool findAlone() {
+    bool any = false;
+    for (int y = y0_; y < y1_; ++y)
+      for (int x = 0; x < f_.width; ++x) {
+        const std::size_t i = at(x, y);
+        if (!f_.known(x, y) || std::min(sums_[0][i].ofPatch.count(), sums_[1][i].ofPatch.count()) >= kEnough)
+          continue;
+        alone_[i] = any = true;
+      }
+    return any;
+  }
+
+  const Filter& f_;
+  int y0_, y1_;
+  std::vector<Sums> sums_[2];  // for each half
+  std::vector<char> alone_;
+  Plane apart_;   // with kPatch around the rows
+  Plane across_;  // sums of a patch's width
+};
 
 }  // namespace
 
@@ -326,7 +343,7 @@ Picture withoutNoise(const Halves& halves, const NoiseGuides& guides, int thread
   const Filter filter(light, guides);
   parallelChunks((result.height + kRows - 1) / kRows, threads, job, [&](std::int64_t chunk, int) {
     const int y0 = static_cast<int>(chunk) * kRows;
-    filter.take(y0, std::min(y0 + kRows, result.height), result);
+    FilteredRows(filter, y0, std::min(y0 + kRows, result.height)).store(result);
   });
   for (std::size_t i = 0; i < result.pixels.size(); ++i)
     result.pixels[i] = result.pixels[i] * surfaceColor(guides.albedo.pixels[i]);
