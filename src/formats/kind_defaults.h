@@ -31,7 +31,7 @@ struct KindGiven {
 struct KindStart {
   Scene scene;  ///< as it begins, at time 0, without defaults
   KindGiven given;
-  Box3 seen;  ///< the bounds of what a person looks at, over all of its time
+  Box3 seen;  ///< the bounds of what a person looks at, until its end
 };
 
 /// Completes the scene. `place` is where the file says its kind; the choices of options carry it. `start` is

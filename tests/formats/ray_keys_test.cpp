@@ -141,6 +141,12 @@ TEST(RayKeys, WhatTraceChoosesStaysWhileTheSceneMoves) {
   const Scene still = whole("plane { }\ntranslate(-3, 1, 0) { sphere { } }\n", 0);
   EXPECT_GT(length(begin.camera.position), 1.2 * length(still.camera.position)) << "it shows the whole way";
 
+  const std::string sparks =
+      "particles { rate = 50; lifetime = 3; velocity = (0, 4, 0); gravity = (0, -2, 0); size = 0.1 }\n";
+  const Scene none = whole("", 0), spark = whole(sparks, 2);
+  EXPECT_NE(spark.camera, none.camera) << "it shows what there is not yet at the start";
+  EXPECT_EQ(whole(sparks, 1).camera, spark.camera);
+
   // A sun behind the shoulder of a camera that turns, and a lamp that comes nearer.
   const std::string turning =
       "sphere { }\ncamera { position = key((0, (0, 0, 9)), (2, (9, 0, 0))); look_at = (0, 0, 0) }\n";

@@ -29,6 +29,7 @@
 #include "formats/text_front.h"
 #include "formats/textures.h"
 #include "formats/words.h"
+#include "scene/options.h"
 
 namespace trace {
 namespace rayfile {
@@ -77,7 +78,7 @@ class Reader {
     messages_.throwIfFailed();
     if (!syntax_.isOfKind()) return;
     const std::optional<KindStart> start =
-        time_.changesScene() && kindDefaultsFollow(scene_, findings_.given()) ? startOf(syntax_, time_)
+        time_.changesScene() && kindDefaultsFollow(scene_, findings_.given()) ? startOf(syntax_, end())
                                                                               : std::nullopt;
     addKindDefaults(scene_, findings_.given(), syntax_.shortPlace((*syntax_.root().begin()).offset()),
                     start ? &*start : nullptr);
@@ -94,12 +95,19 @@ class Reader {
  private:
   // --- the file ---
 
-  /// The scene at its start, and what it shows until its last key. Nothing if it cannot be read there.
-  static std::optional<KindStart> startOf(const Syntax& syntax, const SceneTime& time) {
+  /// The end of the time that the scene shows: its last key, or the moment that it chooses; without both some
+  /// seconds.
+  Real end() const {
+    constexpr Real kUnknown = 2;
+    const Real known = std::max(time_.last(), resolve({scene_.choices}).time);
+    return known > 0 ? known : kUnknown;
+  }
+
+  /// The scene at its start, and what it shows until its end. Nothing if it cannot be read there.
+  static std::optional<KindStart> startOf(const Syntax& syntax, Real end) {
     std::optional<KindStart> start;
     Box3 seen;
-    for (const Real moment : {0.0, time.last() / 2, time.last()}) {
-      if (start && moment == 0) break;
+    for (const Real moment : {0.0, end / 2, end}) {
       Scene scene;
       scene.file = syntax.file();
       Messages known;  // they are those of the scene itself
