@@ -21,8 +21,9 @@ struct Report {
   /// Of 255: what the middle of the picture shows; or its corners, from the top left.
   std::optional<Color> middle{};
   std::vector<Color> corners{};
-  const char* warning = "";  ///< what has to be said; "" for nothing in particular
-  double least = 15;         ///< of the brightest channel of the mean
+  const char* warning = "";   ///< what has to be said; "" for nothing in particular
+  double least = 15;          ///< of the brightest channel of the mean
+  bool ofLetterCase = false;  ///< no warning where names in any letter case are one file, as on Windows
 };
 
 const Color kRed{204, 51, 51};
@@ -98,7 +99,10 @@ const std::vector<Report>& reports() {
       {.file = "v03_extern.wrl"},
       {.file = "o13_mtl_space.obj"},
       {.file = "o11_opt_after.obj", .corners = kQuad},
-      {.file = "o25_casefile.obj", .corners = kQuad, .warning = "letters differ in their case"},
+      {.file = "o25_casefile.obj",
+       .corners = kQuad,
+       .warning = "letters differ in their case",
+       .ofLetterCase = true},
       {.file = "g26_back_doublesided.gltf"},
       {.file = "r05_spot_target.ray"},
       {.file = "r07_maps.ray"},
@@ -110,13 +114,15 @@ const std::vector<Report>& reports() {
 TEST(Reports, EachFileIsAsItsUserExpects) {
   const std::string folder = test::sharedFolder() + "/findings/reports/";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is absent";
+  const bool anyCase = fs::exists(folder + "O25_CASEFILE.OBJ");
   for (const Report& report : reports()) {
     Rendered rendered;
     ASSERT_NO_THROW(rendered = render(folder + report.file)) << report.file;
     const Color mean = meanOf(rendered.picture);
     EXPECT_GT(maxComponent(mean), report.least) << report.file << " is black: " << rendered.warnings;
-    EXPECT_NE(rendered.warnings.find(report.warning), std::string::npos)
-        << report.file << ": " << rendered.warnings;
+    if (!(anyCase && report.ofLetterCase))
+      EXPECT_NE(rendered.warnings.find(report.warning), std::string::npos)
+          << report.file << ": " << rendered.warnings;
     EXPECT_EQ(rendered.warnings.find("cannot be read"), std::string::npos)
         << report.file << ": " << rendered.warnings;
     const int w = rendered.picture.width, h = rendered.picture.height;
