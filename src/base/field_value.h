@@ -61,7 +61,13 @@ struct FieldValue {
 /// Those of the struct at `at`, in the order of its list.
 template <class AnyField, class Struct>
 std::vector<AnyField> fieldsIn(void* at) {
+  constexpr std::size_t kCount = [] {
+    std::size_t count = 0;
+    forEachField<Struct>([&](const auto&) { ++count; });
+    return count;
+  }();
   std::vector<AnyField> all;
+  all.reserve(kCount);
   Struct& target = *static_cast<Struct*>(at);
   forEachField<Struct>([&](const auto& f) {
     auto& value = target.*f.member;

@@ -1,6 +1,7 @@
 // Rays, and what a shape tells of a place on its surface.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 
 #include "geometry/solve/surface_uv.h"
@@ -36,7 +37,8 @@ struct Range {
 class VisitCrossing {
  public:
   template <class Visit>
-  VisitCrossing(Visit& visit)  // NOLINT(google-explicit-constructor)
+  requires(!std::same_as<Visit, VisitCrossing>)  // which is copied, not called by another
+      VisitCrossing(Visit& visit)                // NOLINT(google-explicit-constructor)
       : context_(const_cast<void*>(static_cast<const void*>(&visit))),
         call_([](void* context, const Crossing& c) { (*static_cast<Visit*>(context))(c); }) {}
   void operator()(const Crossing& crossing) const { call_(context_, crossing); }

@@ -1,8 +1,9 @@
 // THE list of shapes. A new shape is one header and one line here; readers, writers, the reference page
 // and the generic tests loop over the table that shape_table.cpp makes of the list.
 //
-// Only that file and render/world/world_queries.cpp include this one: everyone else sees a Shape (shape.h) or
-// what rays hit of it (traced.h), whatever its type, and is not compiled again when a shape changes.
+// Only that file, traced.cpp and render/world/world_queries.cpp include this one: everyone else sees a Shape
+// (shape.h) or what rays hit of it (traced.h), whatever its type, and is not compiled again when a shape
+// changes.
 //
 // Every shape but Mesh answers, in its own space:
 //   solid()             does it enclose space? (an open sheet is seen from both sides)

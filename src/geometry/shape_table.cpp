@@ -139,18 +139,6 @@ Box3 TracedShape::bounds() const {
       [](const Mesh& mesh) { return trace::bounds(*mesh.data); });
 }
 
-void TracedShape::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
-  match(held_->form,
-        Overloaded{[](const Mesh&) {},
-                   [&](const auto& form) { visitCrossings(form, held_->approach, ray, range, visit); }});
-}
-
-SurfacePoint TracedShape::surface(const Ray& ray, const Crossing& crossing) const {
-  return match(held_->form,
-               Overloaded{[](const Mesh&) { return SurfacePoint{}; },
-                          [&](const auto& form) { return surfaceOf(form, held_->approach, ray, crossing); }});
-}
-
 bool TracedShape::convex() const {
   return withForm(
       *this,

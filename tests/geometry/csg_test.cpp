@@ -154,6 +154,33 @@ TEST(Csg, CutFacesTurnOutwardAndKeepTheirOperandsMaterial) {
   EXPECT_EQ(shape.prepared()->material(c[1].part, 0).material[0], 1u);
 }
 
+// A query stops where the line has left a solid that is needed, and beyond its end.
+TEST(Csg, ARayMeetsAheadWhatItsLineMeets) {
+  const Operands operands({operandAt(Cube{}, Affine::scaling({1.4, 1.4, 1.4})),
+                           operandAt(Sphere{}, Affine::scaling({0.9, 0.9, 0.9})), cylinder(2)});
+  Random random(5);
+  for (const Shape& shape : {Shape(Union{operands}), Shape(Intersection{operands}),
+                             Shape(Difference{operands}), Shape(Clip{operands})}) {
+    const TracedShape traced = prepare(shape);
+    for (int i = 0; i < 2000; ++i) {
+      const Ray ray{random.direction() * random.uniform(0, 3), random.direction()};
+      const Real end = random.uniform(0, 4);
+      const auto isWanted = [&](const Crossing& c) { return c.t > 0 && c.t <= end; };
+      std::vector<Crossing> wanted = crossingsOf(traced, ray), found;
+      std::erase_if(wanted, [&](const Crossing& c) { return !isWanted(c); });
+      const auto add = [&](const Crossing& c) {
+        if (isWanted(c)) found.push_back(c);
+      };
+      traced.crossings(ray, Range{0, end}, add);
+      ASSERT_EQ(found.size(), wanted.size()) << nameOf(shape) << ' ' << i;
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        EXPECT_EQ(found[k].t, wanted[k].t);
+        EXPECT_EQ(found[k].part, wanted[k].part);
+      }
+    }
+  }
+}
+
 TEST(Csg, ClippedObjectsStayOpen) {
   const Clip shape{
       Operands({operandAt(Sphere{}), operandAt(Cube{}, movedBy(0, 0, 0.5) * Affine::scaling({3, 3, 1}))})};

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <random>
+
 #include "math/fractal_sum.h"
+#include "math/noise_lanes.h"
 
 namespace trace {
 namespace {
@@ -175,6 +179,53 @@ TEST(FractalSum, BoundsItsOctaves) {
   FractalSum many, most;
   many.octaves = 1000000000, most.octaves = FractalSum::kMostOctaves;
   EXPECT_EQ((many.at<3>({0.1, 0.2, 0.3}, 0)), (most.at<3>({0.1, 0.2, 0.3}, 0)));
+}
+
+/// What repeats after 0 steps does not repeat, and is computed corner by corner.
+constexpr std::int64_t kNever[3]{};
+
+/// Points at all distances, some of them on faces of cells.
+std::array<Real, 3> pointOfAnySize(std::mt19937_64& numbers) {
+  std::array<Real, 3> p;
+  const Real size = std::ldexp(1.0, static_cast<int>(numbers() % 64) - 8);
+  for (Real& x : p) {
+    x = (unitFromBits(numbers()) - 0.5) * size;
+    const auto kind = numbers() % 8;
+    if (kind == 0) x = std::floor(x);
+    if (kind == 1) x = -0.0;
+  }
+  return p;
+}
+
+TEST(NoiseLanes, HaveTheBitsOfCornersThatAreComputedOneByOne) {
+  const NoiseLanes* lanes = noiseLanes();
+  if (!lanes) GTEST_SKIP() << "the processor has no AVX2";
+  std::mt19937_64 numbers(1);
+  for (int k = 0; k < 200000; ++k) {
+    const auto p = pointOfAnySize(numbers);
+    const auto seed = static_cast<std::uint32_t>(numbers());
+    ASSERT_EQ(std::bit_cast<std::uint64_t>(lanes->noise(p, seed)),
+              std::bit_cast<std::uint64_t>(gradientNoise<3>(p, seed, kNever)))
+        << p[0] << ' ' << p[1] << ' ' << p[2] << " seed " << seed;
+  }
+}
+
+TEST(NoiseLanes, HaveTheBitsOfTheirSums) {
+  const NoiseLanes* lanes = noiseLanes();
+  if (!lanes) GTEST_SKIP() << "the processor has no AVX2";
+  std::mt19937_64 numbers(2);
+  for (const SumKind kind : {SumKind::fractal, SumKind::turbulence, SumKind::ridged})
+    for (int k = 0; k < 20000; ++k) {
+      FractalSum f;
+      f.sum = kind;
+      f.octaves = 1 + k % 9;
+      f.seed = k;
+      const auto p = pointOfAnySize(numbers);
+      const Real width = k % 3 * unitFromBits(numbers());
+      ASSERT_EQ(std::bit_cast<std::uint64_t>(lanes->sum(f, p, width)),
+                std::bit_cast<std::uint64_t>(f.at<3>(p, width, kNever)))
+          << names(kind)[static_cast<std::size_t>(kind)] << ' ' << k;
+    }
 }
 
 }  // namespace

@@ -355,23 +355,27 @@ std::string whereToLook(const Scene& scene) {
 Picture cellsOf(const Film& film) {
   constexpr int kSide = 4;  // so many pixels of a cell are looked at, across and down
   const Picture whole = film.corners() ? film.picture() : Picture();
+  const auto lookedAt = [](int count, int pixels) {  // along an axis
+    std::vector<int> all;
+    for (int cell = 0; cell < count; ++cell)
+      for (int part = 0; part < kSide; ++part)
+        all.push_back(std::min(pixels - 1, static_cast<int>((cell + (part + 0.5) / kSide) / count * pixels)));
+    return all;
+  };
+  const std::vector<int> columns = lookedAt(kCellsAcross, film.width()),
+                         rows = lookedAt(kCellsDown, film.height());
+  const bool splats = film.takesSplats();
   Picture cells(kCellsAcross, kCellsDown);
-  for (int y = 0; y < kCellsDown; ++y)
-    for (int x = 0; x < kCellsAcross; ++x) {
-      Color& sum = cells.at(x, y);
-      for (int i = 0; i < kSide * kSide; ++i) {
-        const auto pixel = [&](int cell, int part, int count, int pixels) {
-          return std::min(pixels - 1, static_cast<int>((cell + (part + 0.5) / kSide) / count * pixels));
-        };
-        const int px = pixel(x, i % kSide, kCellsAcross, film.width()),
-                  py = pixel(y, i / kSide, kCellsDown, film.height());
-        if (film.corners())
-          sum += whole.at(px, py);
-        else
-          sum += film.ofSamples(px, py) + (film.takesSplats() ? film.ofSplats(px, py) : Color(0));
-      }
-      sum = sum / (kSide * kSide);
+  for (std::size_t y = 0; y < rows.size(); ++y)
+    for (std::size_t x = 0; x < columns.size(); ++x) {
+      const int px = columns[x], py = rows[y];
+      Color& sum = cells.at(static_cast<int>(x) / kSide, static_cast<int>(y) / kSide);
+      if (film.corners())
+        sum += whole.at(px, py);
+      else
+        sum += film.ofSamples(px, py) + (splats ? film.ofSplats(px, py) : Color(0));
     }
+  for (Color& sum : cells.pixels) sum = sum / (kSide * kSide);
   return cells;
 }
 

@@ -34,18 +34,19 @@ class LineTree {
   /// returns anything.
   template <class Visit>
   void query(const Ray& ray, Visit&& visit) const {
+    query(ray, LineProbe(ray), visit);
+  }
+  template <class Visit>
+  void query(const Ray& ray, const LineProbe& line, Visit&& visit) const {
     const auto ends = [&](std::uint32_t number) {
       if constexpr (std::is_void_v<decltype(visit(number))>)
         return visit(number), false;
       else
         return visit(number);
     };
-    if (!alone_.empty()) {
-      const LineProbe line(ray);
-      for (const Alone& part : alone_) {
-        checkBudget();
-        if (line.meets(part.box) && ends(part.number)) return;
-      }
+    for (const Alone& part : alone_) {
+      checkBudget();
+      if (line.meets(part.box) && ends(part.number)) return;
     }
     if (reach_.empty()) return;
     const Span span = spanIn(reach_, ray);

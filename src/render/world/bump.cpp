@@ -12,6 +12,8 @@
 namespace trace {
 namespace {
 
+constexpr std::string_view kBump = "bump";
+
 /// A ray that is mirrored there stays on its side of the true surface, and the eye sees the front.
 bool sane(const Vec3& normal, const Vec3& direction, const Vec3& trueNormal) {
   const Real side = dot(direction, trueNormal) > 0 ? -1 : 1;
@@ -72,13 +74,15 @@ const Principled* apart(const Material* material) {
 }  // namespace
 
 void World::bend(const Ray& ray, Hit& hit) const {
-  bool coatApart = false;
+  bool coatApart = false, bumped = false;
   for (int i = 0; i < hit.materials.count; ++i) {
     const std::uint32_t m = hit.materials.material[i];
-    coatApart |= m != MaterialMix::kClear && apart(surfaces_[m].textured.get());
+    const Material* material = m == MaterialMix::kClear ? nullptr : surfaces_[m].textured.get();
+    coatApart |= apart(material) != nullptr;
+    bumped |= material && textureOf(material->textures, kBump);
   }
   if (coatApart) hit.coat = bentNormal(ray, hit, Bent::coat);
-  hit.surface.shading = bentNormal(ray, hit, Bent::surface);
+  if (bumped) hit.surface.shading = bentNormal(ray, hit, Bent::surface);
 }
 
 Vec3 World::bentNormal(const Ray& ray, const Hit& hit, Bent what) const {
@@ -91,7 +95,7 @@ Vec3 World::bentNormal(const Ray& ray, const Hit& hit, Bent what) const {
     const Material* material = m == MaterialMix::kClear ? nullptr : surfaces_[m].textured.get();
     const Principled* coat = what == Bent::coat ? apart(material) : nullptr;
     if (!material || (what == Bent::coat && !coat)) continue;
-    const Texture* texture = textureOf(material->textures, coat ? "clearcoat_bump" : "bump");
+    const Texture* texture = textureOf(material->textures, coat ? "clearcoat_bump" : kBump);
     if (!texture) continue;
     const Real scale = coat ? coat->clearcoatBump : material->bump;
     const Real share = hit.materials.count == 1 ? 1 : hit.materials.weight[i];

@@ -178,8 +178,9 @@ void sortFew(std::span<Event> events) {
 
 }  // namespace
 
-void CsgTree::gather(const Ray& ray, SmallList<Event, 16>& events) const {
-  tree_.query(ray, [&](std::uint32_t number) {
+bool CsgTree::gather(const Ray& ray, const LineProbe& line, Real after, SmallList<Event, 16>& events) const {
+  bool missed = false;
+  tree_.query(ray, line, [&](std::uint32_t number) {
     const std::size_t before = events.size();
     const auto add = [&](const Crossing& c) {
       const auto count = static_cast<std::int64_t>(operands_.size());
@@ -188,11 +189,12 @@ void CsgTree::gather(const Ray& ray, SmallList<Event, 16>& events) const {
     operands_[number].crossings(ray, add);
     // Entry and exit take turns; a crossing too many, of a mesh that is not closed, leads nowhere.
     const std::span<Event> own = events.all().subspan(before);
-    sortFew(own);
+    if (own.size() > 1) sortFew(own);
     for (std::size_t i = 0; i + 1 < own.size(); i += 2) own[i].entering = true;
     if (own.size() % 2 != 0 && operands_[number].solid()) own.back().t = kInfinity;
-    return own.empty() && needs(number);
+    return missed = needs(number) && (own.empty() || own.back().t <= after);
   });
+  return !missed && events.size() > 0;
 }
 
 /// Do the crossings lie nearer together than their errors reach? `speed` is the length of the ray's
@@ -207,23 +209,24 @@ bool CsgTree::coincide(const Ray& ray, Real speed, const Event& a, const Event& 
   return apart <= reach(a) + reach(b);
 }
 
-void CsgTree::crossings(const Ray& ray, VisitCrossing visit) const {
-  if (!LineProbe(ray).meets(reach_)) return;
+void CsgTree::crossings(const Ray& ray, const Range& range, VisitCrossing visit) const {
+  const LineProbe line(ray);
+  if (!line.meets(reach_)) return;
   SmallList<Event, 16> list;
-  gather(ray, list);
+  if (!gather(ray, line, range.from, list)) return;
   const std::span<Event> events = list.all();
-  if (events.empty()) return;
   sortFew(events);
   const Real speed = length(ray.direction);
   State state(rule_, operands_.size());
   const bool clips = !rule_.solid;
+  bool after = state.inside();
   for (std::size_t i = 0; i < events.size();) {
     std::size_t end = i + 1;
     while (end < events.size() && coincide(ray, speed, events[end - 1], events[end])) ++end;
-    const bool before = state.inside();
+    const bool before = after;
     for (std::size_t k = i; k < end; ++k)
       if (!clips || events[k].operand != 0) state.apply(events[k]);
-    const bool after = state.inside();
+    after = state.inside();
     const Event* shown = nullptr;
     if (clips) {
       for (std::size_t k = i; k < end; ++k)
@@ -236,6 +239,7 @@ void CsgTree::crossings(const Ray& ray, VisitCrossing visit) const {
       }
     }
     if (shown) visit({events[i].t, shown->part});
+    if (events[i].t > range.to) return;
     i = end;
   }
 }

@@ -47,7 +47,7 @@ class CsgTree {
   /// A clip of strands.
   bool strands() const { return !solid() && !operands_.empty() && operands_.front().shape().strands(); }
   Box3 bounds() const { return bounds_; }
-  void crossings(const Ray& ray, VisitCrossing visit) const;
+  void crossings(const Ray& ray, const Range& range, VisitCrossing visit) const;
   SurfacePoint surface(const Ray& ray, const Crossing& crossing) const;
 
   std::int64_t partCount() const { return partCount_; }
@@ -65,9 +65,10 @@ class CsgTree {
   struct Event;
   class State;
 
-  void gather(const Ray& ray, SmallList<Event, 16>& events) const;
+  /// The crossings of the operands; false if the line is nowhere inside the whole after that t.
+  bool gather(const Ray& ray, const LineProbe& line, Real after, SmallList<Event, 16>& events) const;
   bool coincide(const Ray& ray, Real speed, const Event& a, const Event& b) const;
-  /// The line of a ray that does not hit the operand is nowhere inside the whole.
+  /// A line is nowhere inside the whole where it is not inside the operand.
   bool needs(std::uint32_t operand) const {
     return rule_.operation == CsgOperation::intersect ||
            (rule_.operation == CsgOperation::subtract && operand == 0);
