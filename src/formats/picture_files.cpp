@@ -133,8 +133,7 @@ SeenFrom seenFrom(const Scene& scene, const std::string& file, Messages& message
   const auto placed = [&](const std::string& name) {
     if (same || name.empty() || fs::path(name).is_absolute()) return name;
     const fs::path path = fs::absolute(pictureFile(scene.file, name), error).lexically_normal();
-    return fs::exists(path, error) ? pictureName(name).of(path.lexically_relative(target).generic_string())
-                                   : name;
+    return fs::exists(path, error) ? pictureName(name).of(nameFrom(target.string(), path.string())) : name;
   };
   const auto see = [&](Pixels& pixels) {
     if (pixels.inside) {

@@ -180,6 +180,7 @@ TEST_F(ClassGradeTest, DamagedResultsAreComputedAgainAndOtherFilesAreKept) {
 }
 
 TEST_F(ClassGradeTest, NoSubmissionLeadsToTheReferences) {
+  TRACE_NEEDS_LINKS();
   picture("ref/a.png", classPicture());
   fs::create_directories(path("in/thief"));
   fs::create_symlink(path("ref/a.png"), path("in/thief/a.png"));
@@ -216,6 +217,7 @@ TEST_F(ClassGradeTest, ScenesAreRenderedAgainIfAnyFileOfTheStudentHasChanged) {
 }
 
 TEST_F(ClassGradeTest, ThePageAndTheTableEscapeWhatStudentsWrote) {
+  TRACE_NEEDS_ANY_NAMES();
   picture("ref/a.png", classPicture());
   picture("in/=<u>\"x/a.png", classPicture(1, 0));
   const ClassGrades grades = gradeClass(task());
@@ -299,6 +301,7 @@ TEST_F(ClassGradeTest, FilesWithoutAReferenceAreListed) {
 }
 
 TEST_F(ClassGradeTest, RowsOfTheTableAreLines) {
+  TRACE_NEEDS_ANY_NAMES();
   picture("ref/a.png", classPicture());
   text("in/ann/a.png", readFile(path("ref/a.png")).substr(0, 60));
   text("in/bob\nx/a.png", "none");

@@ -228,6 +228,7 @@ TEST_F(DocumentTest, OptionsOfTheCommandLineAreNotSaved) {
 }
 
 TEST_F(DocumentTest, AFileThatASceneCannotNameIsNoReasonToWriteItAnew) {
+  TRACE_NEEDS_ANY_NAMES();
   write("odd\".ppm", "P3\n1 1\n255\n0 255 0\n");
   Document document;
   document.open(path("scene.ray"));

@@ -275,6 +275,7 @@ TEST_F(OutputTest, WhatDoesNotChangeThePictureStaysOut) {
 }
 
 TEST(CheckIsNoInput, NamesTheFileAndWhatToDo) {
+  TRACE_NEEDS_LINKS();
   const Folder folder;
   writeFile(folder / "a.png", "x");
   std::filesystem::create_symlink("a.png", folder / "link.png");

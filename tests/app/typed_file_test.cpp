@@ -7,21 +7,22 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "support/folder.h"
 #include "support/paths.h"
 
 namespace trace::test {
 namespace {
 
 TEST(TypedFile, CountsFromTheFolderOfTheScene) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "typed_file";
+  const Folder folder;
   std::filesystem::create_directories(folder / "pictures");
-  std::ofstream(folder / "pictures" / "dusk.png") << "no picture";
-  const std::string scene = (folder / "scene.ray").string();
+  std::ofstream(folder / "pictures/dusk.png") << "no picture";
+  const std::string scene = folder / "scene.ray";
   const std::string file = typedFile("pictures/dusk.png", "backdrop", scene);
-  EXPECT_EQ(file, (folder / "pictures" / "dusk.png").string());
+  EXPECT_EQ(file, folder / "pictures/dusk.png");
   EXPECT_EQ(shownFile(file, scene), "pictures/dusk.png");
   EXPECT_EQ(typedFile(file, "backdrop", "elsewhere.ray"), file);
-  EXPECT_EQ(shownFile(file, (folder / "pictures" / "other" / "scene.ray").string()), file);
+  EXPECT_EQ(shownFile(file, folder / "pictures/other/scene.ray"), file);
   EXPECT_EQ(typedFile("", "backdrop", scene), "none");
   EXPECT_EQ(shownFile("none", scene), "");
   try {
@@ -33,7 +34,6 @@ TEST(TypedFile, CountsFromTheFolderOfTheScene) {
   }
   std::ofstream(folder / "odd\".png") << "no picture";
   EXPECT_THROW(typedFile("odd\".png", "backdrop", scene), Error) << "no scene could name it";
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -31,6 +31,15 @@ TEST(File, WritesAllBytesAndLeavesNothingElse) {
   EXPECT_EQ(entries(here), 1u);
 }
 
+TEST(File, NamesFromAFolderAreTheWayFromIt) {
+  EXPECT_EQ(nameFrom("/a/b", "/a/b/c.png"), "c.png");
+  EXPECT_EQ(nameFrom("/a/b", "/a/c/d.png"), "../c/d.png");
+  EXPECT_EQ(nameFrom("b", "/a/d.png"), "/a/d.png") << "no way leads there";
+  if (!fs::path("C:/").has_root_name()) return;
+  EXPECT_EQ(nameFrom("C:/a", "C:/b/d.png"), "../b/d.png");
+  EXPECT_EQ(nameFrom("C:/a", "Z:/b/d.png"), "Z:/b/d.png");
+}
+
 TEST(File, SaysWhyItCannot) {
   const std::string here = folder("trace_fail");
   for (const std::string& path : {here, here + "/none/a", std::string("/dev/null/a"), std::string()}) {

@@ -27,7 +27,7 @@ inline std::vector<std::string> filesUnder(const std::string& folder, const std:
   std::error_code none;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, none))
     if (entry.is_regular_file() && entry.path().extension() == suffix && !isLarge(entry.path()))
-      files.push_back(entry.path().string());
+      files.push_back(entry.path().generic_string());
   std::sort(files.begin(), files.end());
   return files;
 }

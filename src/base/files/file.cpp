@@ -24,6 +24,11 @@ std::string besideFile(const std::string& from, const std::string& name) {
   return path.is_absolute() ? name : (fs::path(from).parent_path() / path).generic_string();
 }
 
+std::string nameFrom(const std::string& folder, const std::string& path) {
+  const fs::path way = fs::path(path).lexically_relative(folder);
+  return (way.empty() ? fs::path(path) : way).generic_string();
+}
+
 bool sameFile(const std::string& a, const std::string& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;

@@ -53,4 +53,8 @@ std::string makeOwnFolder();
 /// `name` as seen from the file `from`: unchanged if absolute, else inside the folder of `from`.
 std::string besideFile(const std::string& from, const std::string& name);
 
+/// `path` as a file in `folder` names it, both absolute and without "..": by the way from there, or as it is
+/// where no way leads to it, as between the drives of Windows.
+std::string nameFrom(const std::string& folder, const std::string& path);
+
 }  // namespace trace

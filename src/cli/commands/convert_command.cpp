@@ -68,7 +68,7 @@ std::string outsideText(const std::vector<NamedBytes>& files, const InputFiles& 
   for (const InputFile& input : inputs.all()) {
     if (mayRead(input.path)) continue;
     const fs::path path = fs::absolute(input.path, ignored).lexically_normal();
-    const std::string there = path.lexically_relative(folder).generic_string();
+    const std::string there = nameFrom(folder.string(), path.string());
     const auto isNamed = [&](const NamedBytes& file) {
       return file.bytes.find(there) != std::string::npos ||
              file.bytes.find(path.generic_string()) != std::string::npos;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/files/file.h"
 #include "formats/model_textures.h"
 #include "formats/words.h"
 #include "geometry/mesh/mesh.h"
@@ -53,7 +54,7 @@ Material painted(const std::string& from, const std::string& picture, InputFiles
   namespace fs = std::filesystem;
   const std::string bytes = readBeside("", pictureName(picture).file, inputs);
   const fs::path folder = fs::absolute(from).parent_path().lexically_normal();
-  const Pixels pixels{fs::absolute(picture).lexically_normal().lexically_relative(folder).generic_string(),
+  const Pixels pixels{nameFrom(folder.string(), fs::absolute(picture).lexically_normal().string()),
                       MipMap::decode(bytes, picture), SourcePlace{.file = picture}};
   const Texture texture = TextureNode{.model = modelPicture(pixels)};
   Phong phong;

@@ -311,7 +311,7 @@ std::string moved(const std::string& text, const std::string& from, const std::s
     const fs::path path = fs::path(std::string(name.text()));
     if (!name.is(Kind::word) || path.empty() || path.is_absolute()) return;
     if (!fs::exists(source / path, error)) return;
-    edits.replace(name, exactly((source / path).lexically_relative(target).generic_string()));
+    edits.replace(name, exactly(nameFrom(target.string(), (source / path).lexically_normal().string())));
   };
   for (std::size_t i = 0; i < syntax.nodes().size(); ++i) {
     const Item item(syntax, static_cast<std::uint32_t>(i));
