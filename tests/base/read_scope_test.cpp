@@ -56,6 +56,14 @@ TEST_F(ReadScopeTest, WhatIsAllowedAndDenied) {
   EXPECT_FALSE(may("home/in/b.png")) << "denial is stronger";
 }
 
+TEST_F(ReadScopeTest, TheRootIsAllFilesOnEveryDrive) {
+  const ReadScope program({"/"});
+  const ReadScope scope = ReadScope::ofScene(scene_);
+  for (const std::string& name :
+       {folder_ / "textures/d.png", std::string("/etc/passwd"), std::string("Q:/a.png")})
+    EXPECT_TRUE(mayRead(name)) << name;
+}
+
 TEST_F(ReadScopeTest, ThePartOfASceneHasTheRulesOfTheScene) {
   const ReadScope scope = ReadScope::ofScene(scene_);
   const ReadScope part = ReadScope::ofScene(folder_ / "textures/mesh.obj");

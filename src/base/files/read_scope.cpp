@@ -39,8 +39,11 @@ std::string realPath(const fs::path& path) {
   return real.generic_string();
 }
 
+constexpr const char* kEverywhere = "/";  // on all drives of Windows
+
 /// Is the path the folder, or below it?
 bool isBelow(const std::string& path, const std::string& folder) {
+  if (folder == kEverywhere) return true;
   if (folder.empty() || !path.starts_with(folder)) return false;
   return path.size() == folder.size() || folder.back() == '/' || path[folder.size()] == '/';
 }
@@ -52,7 +55,8 @@ bool isBelowOne(const std::string& path, const std::vector<std::string>& folders
 
 void addReal(std::vector<std::string>& to, const std::vector<std::string>& paths) {
   for (const std::string& path : paths)
-    if (std::string real = realPath(path); !real.empty()) to.push_back(std::move(real));
+    if (std::string real = path == kEverywhere ? path : realPath(path); !real.empty())
+      to.push_back(std::move(real));
 }
 
 ReadRules copyOfCurrent() { return rulesOfThread() ? *rulesOfThread() : ReadRules{}; }
