@@ -111,6 +111,9 @@ constexpr Vec2 sobolPointBeside(std::uint32_t i, std::uint64_t seed) {
   return sobolPointBesideInOrder(sobolOrder(i, seed), seed);
 }
 
+/// i written in base 2 and mirrored at the point (van der Corput 1935): 1, 2, 3 ... lie evenly together.
+constexpr Real vanDerCorput(std::uint32_t i) { return reversedBits(i) * 0x1p-32; }
+
 /// i written in `base` and mirrored at the point (van der Corput 1935), with digits permuted by the seed.
 inline Real radicalInverse(std::uint32_t i, std::uint32_t base, std::uint64_t seed) {
   Real value = 0, place = 1;

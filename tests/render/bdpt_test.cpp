@@ -10,6 +10,7 @@
 #include "geometry/shapes/solids/square.h"
 #include "image/srgb.h"
 #include "math/hypothesis.h"
+#include "render/paths/path_place.h"
 #include "render/picture/explain.h"
 #include "shading/lights/directional_light.h"
 #include "shading/lights/point_light.h"
@@ -19,6 +20,7 @@
 #include "support/lights.h"
 #include "support/random.h"
 #include "support/rooms.h"
+#include "support/scenes.h"
 
 namespace trace::test::bdpt_test {
 namespace {
@@ -50,6 +52,37 @@ Settings settingsOf(int spp, int depth = 3, int width = 12) {
   settings.airIndex = 1;
   settings.fresnel = Fresnel::exact;
   return settings;
+}
+
+TEST(PathPlace, AnEvenSurfaceAnswersWithTheBitsOfAnySurface) {
+  Random random(47);
+  Scene scene = randomScene(random, 12);
+  for (std::size_t m = 0; m < scene.materials.size(); ++m) {
+    Phong phong = *scene.materials[m].model.as<Phong>();
+    phong.specular = phong.reflective = phong.transmissive = Color(0);
+    scene.materials[m].model = phong;
+    if (m % 2 == 0) scene.materials[m].sides = ShadedSides::both;
+  }
+  const Settings settings = settingsOf(1);
+  const World world = build(scene, settings);
+  Tracer tracer(world, settings);
+  int lit = 0;
+  for (int n = 0; n < 30000; ++n) {
+    const Ray ray{random.inCube(6), random.direction()};
+    Interfaces inside = tracer.interfacesAt(ray.origin);
+    const std::optional<Hit> hit = tracer.cast(ray, RayKind::bounce, inside);
+    if (!hit) continue;
+    const Interaction at(tracer, ray, *hit, nullptr, inside, 0);
+    const PathPlace place(at);
+    const Vec3 toLight = random.direction();
+    for (const Vec3& toEye : {place.from(), random.direction()}) {
+      EXPECT_EQ(place.scattered(toEye, toLight), scattered(at, toEye, toLight));
+      EXPECT_EQ(place.scatteredOn(toEye, toLight, false), scatteredOn(at, toEye, toLight));
+      EXPECT_EQ(place.density(toEye, toLight), density(at.bsdf(), frameToward(at, toEye), toEye, toLight));
+      lit += !isBlack(place.scattered(toEye, toLight));
+    }
+  }
+  EXPECT_GT(lit, 300);
 }
 
 /// The moments of the means of pictures by several seeds.

@@ -48,6 +48,19 @@ TEST(PrimarySample, GoesBackToTheBitWhereAMoveIsUndone) {
   }
 }
 
+TEST(PrimarySample, StartsWithTheNumbersOfItsStart) {
+  PrimarySample sample(9, 10, 0.1);
+  StartSample start(9);
+  for (std::uint64_t branch = 0; branch < 1000; ++branch)  // more than the table holds at first
+    EXPECT_EQ(sample.pair(branch * 64), start.pair(branch * 64));
+  sample.moveNearby();
+  for (std::uint64_t branch = 0; branch < 2000; ++branch)
+    EXPECT_NE(sample.pair(branch * 64), start.pair(branch * 64));
+  sample.undo();
+  for (std::uint64_t branch = 0; branch < 2000; ++branch)
+    EXPECT_EQ(sample.pair(branch * 64), start.pair(branch * 64));
+}
+
 TEST(PrimarySample, ASmallMoveIsOfItsSize) {
   PrimarySample sample(5, 6, 0.01);
   Real squares = 0;

@@ -34,6 +34,17 @@ TEST(Sampler, TheTableIsInTheOrderOfItsKinds) {
   }
 }
 
+TEST(Sampler, WhatIsLeftOutDoesNotMoveWhatIsDrawnAfterwards) {
+  for (const GeneratorRow& row : generators()) {
+    const SampleRules rules(with(row, 4), {10, 5});
+    Sampler all(rules, 3, 2, 1), some = all;
+    all.next();
+    EXPECT_EQ(some.skip(), 0);
+    EXPECT_EQ(all.next(), some.next()) << row.name;
+    EXPECT_EQ(all.next2(), some.next2()) << row.name;
+  }
+}
+
 TEST(Sampler, SamplesLieInTheirPixel) {
   for (const GeneratorRow& row : generators()) {
     const SampleRules rules(with(row, 16), {10, 5});

@@ -31,7 +31,7 @@ struct Stop {
   Real visits = 0;
 };
 
-/// Takes the sample of the numbers: what it brings to its own pixel, and to others.
+/// Takes the sample of the numbers: what it brings to its own pixel, and to others. Keeps its memory.
 class Sampling {
  public:
   Sampling(PixelTracer& tracer, const Tile& area) : tracer_(tracer), area_(area), pixels_(pixelsOf(area)) {
@@ -41,16 +41,21 @@ class Sampling {
   Sampling(const Sampling&) = delete;
   Sampling& operator=(const Sampling&) = delete;
 
-  Stop at(SampleNumbers& numbers) {
+  void take(SampleNumbers& numbers, Stop& stop) {
     thrown_.clear();
-    Stop stop;
+    stop.splats.clear();
+    stop.light = 0;
     stop.splats.push_back(tracer_.sample(numbers, area_));
     if (!isFinite(stop.splats.front().value)) ++tracer_.tracer().statistics().badSamples;
     for (const Splat& splat : thrown_)
       if (splat.x >= area_.x0 && splat.x < area_.x1 && splat.y >= area_.y0 && splat.y < area_.y1)
         stop.splats.push_back({splat.x, splat.y, splat.value * (1 / pixels_)});
     for (const Splat& splat : stop.splats) stop.light += lightOf(splat);
-    return stop;
+  }
+  /// How bright the sample is, alone.
+  Real lightAt(SampleNumbers& numbers) {
+    take(numbers, looked_);
+    return looked_.light;
   }
   Real pixels() const { return pixels_; }
   PixelTracer& tracer() { return tracer_; }
@@ -60,6 +65,7 @@ class Sampling {
   const Tile& area_;
   Real pixels_;
   std::vector<Splat> thrown_;
+  Stop looked_;
 };
 
 /// Numbers of one of many samples that are spread evenly over the picture, whose place is drawn first. The
@@ -126,9 +132,9 @@ std::vector<Real> Metropolis::startLights(Job& job, const std::function<void()>&
   std::vector<Real> found(static_cast<std::size_t>(settings_.chainStarts));
   look(moments_, std::ssize(found), job, interrupt, [&](Sampling& sampling, std::int64_t n) {
     const auto number = static_cast<std::uint64_t>(n);
-    PrimarySample numbers = startOf(number, 0);
+    StartSample numbers(seedOf(number));
     found[static_cast<std::size_t>(n)] =
-        paths_ ? paths_->light(sampling.tracer(), seedOf(number)) : sampling.at(numbers).light;
+        paths_ ? paths_->light(sampling.tracer(), seedOf(number)) : sampling.lightAt(numbers);
   });
   return found;
 }
@@ -161,7 +167,7 @@ std::pair<Real, Real> Metropolis::wholeLight(Job& job, const std::function<void(
     }
     look(moments, samples, job, interrupt, [&](Sampling& sampling, std::int64_t n) {
       EvenSample numbers(seed, static_cast<std::uint32_t>(n));
-      found[static_cast<std::size_t>(n)] = sampling.at(numbers).light;
+      found[static_cast<std::size_t>(n)] = sampling.lightAt(numbers);
     });
   }
   std::array<Real, kParts> parts{};
@@ -230,7 +236,8 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
     for (const Splat& splat : at.splats) splats.push_back({splat.x, splat.y, splat.value * counts});
   };
 
-  Stop here = samples.at(numbers);
+  Stop here, there;
+  samples.take(numbers, here);
   const OfferedSample again = [&](PixelTracer& other) { return other.sample(numbers, area_); };
   const auto tell = [&](ChainMove move, const Stop& at) {
     // Its own pixel, or one that a path from a light came to.
@@ -245,7 +252,7 @@ std::vector<Splat> Metropolis::chain(PixelTracer& tracer, std::uint64_t number, 
     const bool anywhere = chance() < settings_.moveAnywhere;
     const MoveKind kind = anywhere ? MoveKind::anywhere : MoveKind::nearby;
     anywhere ? numbers.moveAnywhere() : numbers.moveNearby();
-    Stop there = samples.at(numbers);
+    samples.take(numbers, there);
     const Real accepts = here.light > 0 ? std::min(1.0, there.light / here.light) : 1;
     there.visits = accepts + (anywhere ? 1 : 0);
     here.visits += 1 - accepts;

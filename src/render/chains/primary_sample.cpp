@@ -1,5 +1,6 @@
 #include "render/chains/primary_sample.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "math/elementary.h"
@@ -26,6 +27,8 @@ Real wrapped(Real x) {
 
 }  // namespace
 
+Vec2 StartSample::pair(std::uint64_t branch) { return uniformPair(mixBits(branch ^ start_)); }
+
 void PrimarySample::offer(bool anywhere) {
   ++step_;
   ++offers_;
@@ -38,9 +41,9 @@ void PrimarySample::keep() {
 }
 
 void PrimarySample::undo() {
-  for (Pair* pair : offered_) {
-    pair->now = pair->before;
-    pair->moved = pair->movedBefore;
+  for (const std::size_t place : offered_) {
+    pairs_[place].now = pairs_[place].before;
+    pairs_[place].moved = pairs_[place].movedBefore;
   }
   offered_.clear();
   --step_;
@@ -50,10 +53,32 @@ std::uint64_t PrimarySample::bits(std::uint64_t branch, std::int64_t step) const
   return mixBits(branch ^ mixBits(moves_ + static_cast<std::uint64_t>(step)));
 }
 
+void PrimarySample::grow() {
+  slots_.assign(std::max<std::size_t>(64, 4 * pairs_.size()), 0);  // a power of two
+  for (std::uint32_t place = 0; place < pairs_.size(); ++place)
+    slots_[slotOf(pairs_[place].branch)] = place + 1;
+}
+
+/// Where the branch is in the table, or would be.
+std::size_t PrimarySample::slotOf(std::uint64_t branch) const {
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = branch & mask;
+  while (slots_[slot] != 0 && pairs_[slots_[slot] - 1].branch != branch) slot = (slot + 1) & mask;
+  return slot;
+}
+
+PrimarySample::Pair& PrimarySample::of(std::uint64_t branch) {
+  if (2 * pairs_.size() >= slots_.size()) grow();
+  std::uint32_t& place = slots_[slotOf(branch)];
+  if (place == 0) {
+    pairs_.push_back({branch, first_.pair(branch)});
+    place = static_cast<std::uint32_t>(pairs_.size());
+  }
+  return pairs_[place - 1];
+}
+
 Vec2 PrimarySample::pair(std::uint64_t branch) {
-  const auto [at, isNew] = pairs_.try_emplace(branch);
-  Pair& pair = at->second;
-  if (isNew) pair.now = uniformPair(mixBits(branch ^ start_));
+  Pair& pair = of(branch);
   if (pair.moved < anywhere_) {
     constexpr std::uint64_t kMissed = 0x6d6973736564ull;  // these numbers are not those of an offer
     pair.now = uniformPair(bits(branch ^ kMissed, offers_));
@@ -62,7 +87,7 @@ Vec2 PrimarySample::pair(std::uint64_t branch) {
   if (pair.moved == step_) return pair.now;
   pair.before = pair.now;
   pair.movedBefore = pair.moved;
-  offered_.push_back(&pair);
+  offered_.push_back(static_cast<std::size_t>(&pair - pairs_.data()));
   if (offersAnywhere_) {
     pair.now = uniformPair(bits(branch, offers_));
   } else {

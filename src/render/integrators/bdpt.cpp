@@ -11,6 +11,7 @@ void Bidirectional::prepare(const World& world, const Settings& settings, Job&) 
   lamps_ = Lamps(world, settings.threads);
   starts_ = LightStarts(world, lamps_);
   camera_ = CameraImportance(world.camera());
+  splits_ = settings.wavelengths > 1;
   depth_ = settings.depth;
   mostScattered_ = settings.fog > 0 || !world.media().empty() ? settings.mediumDepth : 0;
   if (!multiplexed_) {
@@ -40,24 +41,12 @@ bool Bidirectional::comesFromLights(const Path& path) const {
   return starts_.anyLight() && (path.kind == RayKind::bounce || (lands_ && path.kind == RayKind::camera));
 }
 
-/// The way that the sample's numbers choose: first how many places the path has, few more likely than many.
-Bidirectional::Ways Bidirectional::waysOf(const Sampler& sampler) const {
-  if (!multiplexed_) return ways_;
-  const Vec2 u = sampler.branch(Branch::strategy).next2();
-  const int most = depth_ + mostScattered_ + 3;  // places, both ends among them; the fewest are 2
-  const auto likely = [](int places) { return 1.0 / places; };
-  Real all = 0;
-  for (int places = 2; places <= most; ++places) all += likely(places);
-  Real rest = u.x * all;
-  int places = 2;
-  while (places < most && rest >= likely(places)) rest -= likely(places++);
-  const int s = std::min(static_cast<int>(u.y * places), places - 1);
-  return {s, places - s, all / likely(places) * places};
-}
-
 Bidirectional::Sample Bidirectional::sampleOf(const Sampler& sampler, std::vector<Thrown>* thrown) const {
   Sampler spectrum = sampler.branch(Branch::spectrum);
-  return {spectrum.next(), spectrum.next(), waysOf(sampler), thrown};
+  const auto number = [&] { return splits_ ? spectrum.next() : 0; };
+  const int most = depth_ + mostScattered_ + 3;  // vertices of a path
+  const auto chosen = [&] { return Strategies::chosen(most, sampler.branch(Branch::strategy).next2()); };
+  return {number(), number(), multiplexed_ ? chosen() : ways_, thrown};
 }
 
 void Bidirectional::throwLight(Tracer& tracer, const Sampler& sampler, std::vector<Thrown>& thrown) const {
@@ -70,9 +59,7 @@ Color Bidirectional::radiance(Tracer& tracer, Sampler sampler, const CameraRay& 
   Sample sample = sampleOf(sampler, camera.thrown);
   walkFromLight(tracer, sampler.branch(Branch::lightPath), sample);
   if (sample.ways.camera == 1) return Gather(tracer, 0).radiance();
-  Path path{{camera.ray, camera.inside, sampler}};
-  if (camera.differentials) path.footprint = *camera.differentials;
-  path.ink = camera.ink;
+  Path path{{camera, sampler}};
   if (lands_) path.partial.vcm = Partial::power(1 / camera_.density(camera.ray));
   return along(tracer, path, camera.hit, sample);
 }
@@ -85,11 +72,6 @@ Color Bidirectional::along(Tracer& tracer, Path& path, const std::optional<Hit>&
   });
 }
 
-/// The chance of Russian roulette, where that much is left of the path's throughput.
-Real Bidirectional::keeps(const Path& path, Real left) const {
-  return path.counts.all() < kSurely ? 1 : std::min(1.0, left);
-}
-
 /// Joins the place where the path arrives with all others, and turns the path; or ends it.
 std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std::optional<Hit>& hit,
                                            Turns& turns, const Sample& sample) const {
@@ -98,21 +80,18 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
   const int t = path.t();
   // A light that was asked, or comes by paths from it, is not seen besides.
   const bool brought = path.asked || path.fromLights;
-  const auto lamp = brought || path.within ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
-  const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
+  const LegEnd end(world, path, hit, !brought);
   const bool mostOften = path.counts.scatterings > 0 && path.counts.scatterings >= mostScattered_;
   const bool last = path.counts.surfaces > depth_ || mostOften;  // it looks for emitters only
   const auto shines = [&] { return share(0, t, 0, sample); };    // what no other way finds
-  LegMedia media(tracer, path, end, last ? 0 : 1);
+  LegMedia media(tracer, path, end.t, last ? 0 : 1);
   if (media.place) return scatter(tracer, path, media, turns, sample);
   if (media.way) {
     path.weight *= media.way->passes;
     media.way->glows *= Color(shines());
   }
-  Turn& turn = turns.push(tracer, path.counts.all(), path.ink);
-  turn.media = std::move(media.way);
+  Turn& turn = pushArrived(turns, tracer, path.counts.all(), path, media, end.t);
   Gather& sum = turn.sum;
-  if (end < kInfinity && !path.within) turn.passed = path.inside.passed(end);
   /// s = 0: the emitter there was hit with the densities of being asked for and of having started there.
   const auto met = [&](Term::Kind kind, const Color& light, Real asked, Real started) {
     const Partial& p = path.partial;
@@ -121,9 +100,10 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
     const Real counts = share(0, t, others, sample);
     sum.addWay(kind, Color(counts), light, ConnectionTerm{0, t, counts});
   };
-  if (lamp) {
-    sum.addWay(Term::Kind::emissive, Color(shines()), lamp->seen.color, ConnectionTerm{0, t, shines()});
-    sum.stop(MetLight{lamp->light, lamp->seen.t});
+  if (end.lamp) {
+    const World::Lamp& lamp = *end.lamp;
+    sum.addWay(Term::Kind::emissive, Color(shines()), lamp.seen.color, ConnectionTerm{0, t, shines()});
+    sum.stop(MetLight{lamp.light, lamp.seen.t});
     return turns.end();
   }
   if (!hit) {
@@ -156,42 +136,31 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
   const BodyLight body(sum, arrival, path, Branch::bdptBody, within);
   const Onward onward(at, sample.spectrum, body.addFirst(path.counts.surfaces == 0));
   Sampler numbers = path.numbers.branch(Branch::choice);
-  const Real choice = numbers.next();
-  if (const Real likely = onward.goesIntoBody(choice); likely > 0) {
-    body.add(0, 1 / likely);
-    return turns.end();
-  }
+  const Real choice = onward.choice(numbers);
+  if (body.takes(onward, choice)) return turns.end();
   if (sample.ways.camera == t) return turns.end();
 
-  const auto next = onward.choose(choice, lobeNumbers(path.numbers.branch(Branch::lobe)));
+  const auto next =
+      onward.choose(choice, lobeNumbers(path.numbers.branch(Branch::lobe), hasOneLobe(at.bsdf())));
   if (!next) {
     if (onward.totallyReflected(choice)) sum.stop(TotalInternalReflection{});
     return turns.end();
   }
   const RayKind kind = next->kind;
   const bool bounces = kind == RayKind::bounce;
-  const Color weight = kind == RayKind::refraction ? next->weight * onward.response() : next->weight;
-  const Real most = maxComponent(path.weight * weight), goes = keeps(path, most);
-  if (path.counts.surfaces >= depth_ && !bounces) {
-    sum.stop(DepthLimit{kind, depth_});
-  } else if (!(most > 0)) {
-    sum.stop(BelowThreshold{kind, 0, 0});
-  } else if (numbers.next() >= goes) {
-    sum.stop(Roulette{kind, goes});
-  } else {
-    const Vec3 from = -ray.direction, to = next->direction;
-    turn.density = next->density;
-    path.fromLights = path.fromLights || (bounces && comesFromLights(path));
-    if (next->density > 0)
-      path.partial.leave(next->density, place.density(to, from), place.cosine(to));
-    else
-      path.partial.reflect(place.cosine(to));
-    path.counts = counts;
-    path.fromMedium = false;
-    goOn(path, turn, at, arrival.footprint.get(), *next, weight * (1 / goes));
-    return {};
-  }
-  return turns.end();
+  const Color weight = onward.seen(*next);
+  const Real most = maxComponent(path.weight * weight), goes = counts.keeps(most);
+  const bool deep = path.counts.surfaces >= depth_ && !bounces;
+  if (!continues(sum, kind, deep ? std::optional(depth_) : std::nullopt, most > 0, goes,
+                 [&] { return numbers.next(); }))
+    return turns.end();
+  turn.density = next->density;
+  path.fromLights = path.fromLights || (bounces && comesFromLights(path));
+  path.partial.leave(place, *next, -ray.direction);
+  path.counts = counts;
+  path.fromMedium = false;
+  goOn(path, turn, at, arrival.footprint.get(), *next, weight * (1 / goes));
+  return {};
 }
 
 /// Joins and turns the path where a medium on the way scatters it.
@@ -206,7 +175,7 @@ std::optional<Color> Bidirectional::scatter(Tracer& tracer, Path& path, const Le
   if (sample.ways.camera == path.t()) return turns.end();
 
   Sampler numbers = path.numbers.branch(Branch::choice);
-  const Real most = maxComponent(path.weight * where.weight), goes = keeps(path, most);
+  const Real most = maxComponent(path.weight * where.weight), goes = counts.keeps(most);
   if (!(most > 0) || !(numbers.next() < goes)) {
     turn.sum.stop(Roulette{RayKind::bounce, goes});
     return turns.end();

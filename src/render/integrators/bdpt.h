@@ -33,13 +33,13 @@
 #include "render/lights/light_starts.h"
 #include "render/media/media.h"
 #include "render/paths/partial_sums.h"
+#include "render/paths/strategies.h"
 #include "render/rays/gather.h"
 #include "render/samples/integrator.h"
 #include "shading/cameras/importance.h"
 
 namespace trace {
 
-class PathPlace;
 class Turns;
 struct LegMedia;
 
@@ -63,18 +63,10 @@ class Bidirectional : public Integrator {
   struct LightPlace;
   /// The vertex of a whole path next to the light.
   enum class Last { lobe, mirror, medium };
-  /// The ways that a sample shows.
-  struct Ways {
-    int light = -1, camera = -1;  ///< s and t; -1: any
-    Real counts = 1;
-    bool shows(int s, int t) const { return (light < 0 || light == s) && (camera < 0 || camera == t); }
-  };
-  Ways waysOf(const Sampler& sampler) const;
   Sample sampleOf(const Sampler& sampler, std::vector<Thrown>* thrown) const;
   Real share(int s, int t, Real others, const Sample& sample) const;
   bool allows(const Counts& whole, Last last) const;
   bool comesFromLights(const Path& path) const;
-  Real keeps(const Path& path, Real left) const;
 
   // The path from the camera: integrators/bdpt.cpp.
   Color along(Tracer& tracer, Path& path, const std::optional<Hit>& hit, const Sample& sample) const;
@@ -102,13 +94,11 @@ class Bidirectional : public Integrator {
   void join(Gather& sum, const PathPlace& at, const Path& path, const Counts& counts, const Color& factor,
             const LightPlace& light, const Sample& sample) const;
 
-  /// Paths of fewer bounces are not ended at random.
-  static constexpr int kSurely = 3;
-
   bool multiplexed_;
   int depth_ = 0;          ///< the most bounces
   int mostScattered_ = 0;  ///< the most times that media scatter
-  Ways ways_;
+  Strategies ways_;
+  bool splits_ = false;  ///< glass may split light
   bool weighs_ = true;
   bool lands_ = false;  ///< t = 1 is one of the ways
   Lamps lamps_;

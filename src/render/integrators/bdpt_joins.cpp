@@ -69,7 +69,7 @@ void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path,
                              const Sample& sample) const {
   if (lamps_.empty()) return;
   Sampler numbers = path.numbers.branch(Branch::lamp);
-  const Real which = numbers.next();
+  const Real which = lamps_.isOne() ? numbers.skip() : numbers.next();
   const Tracer::Joining joining(sum.tracer());
   const auto weigh = [&](const Lamps::Place& place, bool alone) {
     const Vec3& toLight = place.toLight;

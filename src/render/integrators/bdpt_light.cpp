@@ -38,7 +38,7 @@ Color Bidirectional::travels(Tracer& tracer, const Flight& f, std::optional<Medi
 
 /// Keeps the places of a path from a light, and lets those land that the camera sees.
 void Bidirectional::walkFromLight(Tracer& tracer, const Sampler& sampler, Sample& sample) const {
-  const Ways& ways = sample.ways;
+  const Strategies& ways = sample.ways;
   if (ways.light == 0 || ways.light == 1) return;
   Tracer::Aside aside(tracer);
   auto start = starts_.start(tracer, sampler);
@@ -90,8 +90,8 @@ void Bidirectional::walkFromLight(Tracer& tracer, const Sampler& sampler, Sample
 /// The flight is scattered by a medium; false if it ends.
 bool Bidirectional::scatters(Flight& f, const MediumWay::Place& where) const {
   Sampler numbers = f.numbers.branch(Branch::choice);
-  const Real goes = f.counts.all() <= kSurely ? 1 : std::min(1.0, f.kept);
-  if (!(numbers.next() < goes)) return false;
+  const Real goes = f.counts.keeps(f.kept);
+  if (goes < 1 && !(numbers.next() < goes)) return false;
   f.weight *= Color(1 / goes);
   f.straight = f.open = false;
   f.way = 0;
@@ -109,16 +109,14 @@ bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sam
   const Onward onward(at, sample.spectrum);
   Sampler choice = f.numbers.branch(Branch::choice);
   const auto next =
-      onward.choose(choice.next(), lobeNumbers(f.numbers.branch(Branch::lobe)), true, place.lit);
+      onward.choose(onward.choice(choice), lobeNumbers(f.numbers.branch(Branch::lobe), hasOneLobe(at.bsdf())),
+                    true, place.lit);
   if (!next) return false;
   const Color& weight = next->weight;
-  const Real keeps = maxComponent(f.weight * weight) / maxComponent(f.weight);
-  const Real goes = f.counts.all() <= kSurely ? 1 : std::min(1.0, keeps);
-  if (!(choice.next() < goes)) return false;
+  const Real goes = f.counts.keeps(maxComponent(f.weight * weight) / maxComponent(f.weight));
+  if (goes < 1 && !(choice.next() < goes)) return false;
   f.weight *= weight * (1 / goes);
   if (isBlack(f.weight)) return false;
-  const Vec3 from = -f.ray.direction, to = next->direction;
-  const Real cosine = place.place.cosine(to);
   f.straight = place.lit && next->kind == RayKind::refraction && next->ratio == 1;
   f.open = f.straight && passes;
   f.way = f.straight ? f.way + f.hit->t : 0;
@@ -126,14 +124,12 @@ bool Bidirectional::goesOn(Flight& f, const LightPlace& place, const Sample& sam
   if (f.open) {
     --f.counts.surfaces;
   } else {
-    if (next->density > 0)
-      f.partial.leave(next->density, density(at.bsdf(), frameToward(at, to), to, from), cosine);
-    else
-      f.partial.reflect(cosine);
+    f.partial.leave(place.place, *next, -f.ray.direction);
     if (f.counts.all() == 1 && !(next->density > 0)) f.last = Last::mirror;
   }
   if (f.inside.wavelength == 0 && next->in(f.inside).wavelength != 0) f.response = onward.response();
-  f.ray = next->kind == RayKind::bounce ? at.leaveToLight(to) : place.hit->leave(to);
+  f.ray =
+      next->kind == RayKind::bounce ? at.leaveToLight(next->direction) : place.hit->leave(next->direction);
   if (next->behind) f.inside = *next->behind;
   return true;
 }

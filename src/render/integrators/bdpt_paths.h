@@ -1,6 +1,7 @@
 // The state of the two paths of Bidirectional.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -17,6 +18,8 @@ namespace trace {
 struct Bidirectional::Counts {
   int surfaces = 0, scatterings = 0;
   int all() const { return surfaces + scatterings; }
+  /// The chance of Russian roulette behind so many vertices, where that much is left of the throughput.
+  Real keeps(Real left) const { return all() <= 3 ? 1 : std::min(1.0, left); }
   friend Counts operator+(const Counts& a, const Counts& b) {
     return {a.surfaces + b.surfaces, a.scatterings + b.scatterings};
   }
@@ -68,12 +71,12 @@ struct Bidirectional::LightPlace : Bidirectional::Carried {
 /// The data shared by both paths of a sample.
 struct Bidirectional::Sample {
   /// Not an aggregate, which would clear the memory of `lights`.
-  Sample(Real spectrum_, Real shift_, const Ways& ways_, std::vector<Thrown>* thrown_)
+  Sample(Real spectrum_, Real shift_, const Strategies& ways_, std::vector<Thrown>* thrown_)
       : spectrum(spectrum_), shift(shift_), ways(ways_), thrown(thrown_) {}
 
   Real spectrum;  ///< chooses the wavelength, should a path be split
   Real shift;     ///< shift of all wavelengths to choose from
-  Ways ways;
+  Strategies ways;
   std::vector<Thrown>* thrown;
   InlineStack<LightPlace, 6> lights;
 };

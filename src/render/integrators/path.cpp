@@ -8,14 +8,6 @@
 #include "render/paths/even_point.h"
 
 namespace trace {
-namespace {
-
-/// Russian roulette.
-bool ends(const Sampler& numbers, Real goes) {
-  return goes < 1 && numbers.branch(Branch::roulette).next() >= goes;
-}
-
-}  // namespace
 
 void PathTracer::prepare(const World& world, const Settings& settings, Job&) {
   lamps_ = Lamps(world, settings.threads);
@@ -25,9 +17,7 @@ void PathTracer::prepare(const World& world, const Settings& settings, Job&) {
 }
 
 Color PathTracer::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
-  Path path{{camera.ray, camera.inside, sampler}};
-  if (camera.differentials) path.footprint = *camera.differentials;
-  path.ink = camera.ink;
+  Path path{{camera, sampler}};
   if (terminator_) path.told = terminator_->begin(sampler.sample());
   return along(tracer, path, camera.hit);
 }
@@ -43,17 +33,13 @@ std::optional<Color> PathTracer::arrive(Tracer& tracer, Path& path, const std::o
   const World& world = tracer.world();
   const Ray& ray = path.ray;
   const bool known = terminator_ && !(path.density > 0) && terminator_->knowsEmitter(path.told, path.kind);
-  const auto lamp =
-      path.asked || path.within || known ? std::nullopt : world.lampAlong(ray, hit ? hit->t : kInfinity);
-  const Real end = lamp ? lamp->seen.t : hit ? hit->t : kInfinity;
+  const LegEnd end(world, path, hit, !path.asked && !known);
   const bool last = path.depth > depth_ || path.scattered >= mostScattered_;  // it looks for emitters only
-  LegMedia media(tracer, path, end, last || path.told.all ? 0 : 1);
+  LegMedia media(tracer, path, end.t, last || path.told.all ? 0 : 1);
   if (media.place) return scatter(tracer, path, media, turns);
-  Turn& turn = turns.push(tracer, path.depth, path.ink);
-  turn.media = std::move(media.way);
-  if (end < kInfinity && !path.within) turn.passed = path.inside.passed(end);
-  if (lamp) {
-    turn.sum.add(*lamp);
+  Turn& turn = pushArrived(turns, tracer, path.depth, path, media, end.t);
+  if (end.lamp) {
+    turn.sum.add(*end.lamp);
     return turns.end();
   }
   if (!hit) {
@@ -138,10 +124,7 @@ std::optional<Color> PathTracer::turnAt(Tracer& tracer, Path& path, const Hit& h
   const Real toLobe = onward.chance(RayKind::bounce);
   if (!splits && toLobe < 1) choice.x = path.numbers.branch(Branch::choice).next();
   if (left.lamps && scatters(at.bsdf())) addLamp(sum, at, toLobe, path);
-  if (const Real likely = onward.goesIntoBody(choice.x); likely > 0) {
-    body.add(0, 1 / likely);
-    return turns.end();
-  }
+  if (body.takes(onward, choice.x)) return turns.end();
   const auto next = onward.choose(choice.x, [&] {
     const Real which = hasOneLobe(at.bsdf()) ? 0 : path.numbers.branch(Branch::lobe).next();
     return LobeNumbers{which, path.numbers.branch(Branch::next).branch(Branch::arrival).next2()};
@@ -152,21 +135,16 @@ std::optional<Color> PathTracer::turnAt(Tracer& tracer, Path& path, const Hit& h
   }
   const RayKind kind = next->kind;
   const bool crosses = pane && kind == RayKind::refraction;
-  const Color weight = kind == RayKind::refraction ? next->weight * onward.response() : next->weight;
+  const Color weight = onward.seen(*next);
   const Real goes = survival(path.depth, path.weight * weight);
-  if (path.depth >= depth_ && kind != RayKind::bounce && !crosses) {
-    sum.stop(DepthLimit{kind, depth_});
-  } else if (!(goes > 0) || !(crosses || left.brings(kind))) {
-    sum.stop(BelowThreshold{kind, 0, 0});
-  } else if (ends(path.numbers, goes)) {
-    sum.stop(Roulette{kind, goes});
-  } else {
-    turn.density = next->density * toLobe;
-    if (terminator_) path.told = Terminator::onward(path.told, left, kind);
-    follow(path, turn, arrival, *next, weight * (1 / goes));
-    return {};
-  }
-  return turns.end();
+  const bool deep = path.depth >= depth_ && kind != RayKind::bounce && !crosses;
+  const bool brings = goes > 0 && (crosses || left.brings(kind));
+  if (!continues(sum, kind, deep ? std::optional(depth_) : std::nullopt, brings, goes, path.roulette()))
+    return turns.end();
+  turn.density = next->density * toLobe;
+  if (terminator_) path.told = Terminator::onward(path.told, left, kind);
+  follow(path, turn, arrival, *next, weight * (1 / goes));
+  return {};
 }
 
 /// A surface that only scatters evenly: to the same bits as above, where rays are not recorded.
@@ -182,7 +160,7 @@ std::optional<Color> PathTracer::turnEvenly(Tracer& tracer, Path& path, const Hi
   addLamp(turn.sum, at, 1, path);
 
   const Real goes = survival(path.depth, path.weight * bsdf.diffuse);
-  if (!(goes > 0) || ends(path.numbers, goes)) return turns.end();
+  if (!(goes > 0) || (goes < 1 && !(path.roulette()() < goes))) return turns.end();
   path.second.reset();
   const auto next = at.sample(path.numbers.branch(Branch::next).branch(Branch::arrival).next2(path.second));
   if (!next) return turns.end();

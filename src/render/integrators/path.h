@@ -35,6 +35,9 @@ class PathTracer : public Integrator {
     Vec3 from{};        ///< place for which that holds: panes may lie between it and the ray
     Terminator::Told told{};
     std::optional<Vec2> second{};  ///< second2() of the numbers that led here, if it was drawn already
+    auto roulette() const {
+      return [this] { return numbers.branch(Branch::roulette).next(); };
+    }
   };
   /// The radiance along the ray of the path, which was cast last and ends at `hit`.
   Color along(Tracer& tracer, Path& path, const std::optional<Hit>& hit) const;

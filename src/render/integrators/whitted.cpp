@@ -27,19 +27,6 @@ struct Whitted::Path {
   Real ink = 0;                                  ///< how much of it an outline covers
 };
 
-namespace {
-
-/// Where sample k of a pixel has its wavelengths between those of sample 0: together they lie evenly (van der
-/// Corput 1935).
-Real spreadOf(int k) {
-  Real spread = 0, step = 0.5;
-  for (auto n = static_cast<unsigned>(k) + 1; n > 0; n >>= 1, step /= 2)
-    if (n & 1) spread += step;
-  return spread;
-}
-
-}  // namespace
-
 void Whitted::prepare(const World& world, const Settings& settings, Job& job) {
   if (settings.lampSamples > 0) lamps_ = Lamps(world, settings.threads, true);
   if (settings.caustics > 0)
@@ -62,18 +49,19 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
                      const Interfaces& inside, const Sampler& sampler) const {
   Gather sum(tracer, path.depth);
   const World& world = tracer.world();
+  const auto arriving = [&](Real t, const Color& passed) {
+    seeMedia(sum, tracer, ray, t, inside, sampler);
+    sum.draw(path.ink);
+    return sum.radiance(passed);
+  };
   if (const auto lamp = world.lampAlong(ray, hit ? hit->t : kInfinity)) {
     sum.add(*lamp);
-    seeMedia(sum, tracer, ray, lamp->seen.t, inside, sampler);
-    sum.draw(path.ink);
-    return sum.radiance(inside.passed(lamp->seen.t));
+    return arriving(lamp->seen.t, inside.passed(lamp->seen.t));
   }
   if (!hit) {
     if (world.outside().isSeenBy(path.kind))
       sum.add(Term::Kind::background, world.outside().view(ray, path.kind).color);
-    seeMedia(sum, tracer, ray, kInfinity, inside, sampler);
-    sum.draw(path.ink);
-    return sum.radiance();
+    return arriving(kInfinity, Color(1));
   }
   const Settings& settings = tracer.settings();
   Footprint footprint;  // none where none is wanted
@@ -109,6 +97,11 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
   const auto onward = [&](RayKind kind, const Color& share) {
     return Path{kind, path.depth + 1, path.weight * share * hit->opacity, path.spread};
   };
+  const auto send = [&](Term::Kind term, const Color& share, Path next, const Footprint& widened,
+                        const Vec3& to, Interfaces there, const Sampler& numbers) {
+    next.differentials = widened.get();
+    sum.add(term, share, follow(tracer, hit->leave(to), next, std::move(there), numbers));
+  };
   sum.note(at.indices);
   if (glossy) {  // one ray into the lobe, in place of those that stand for its core
     Sampler numbers = sampler.branch(Branch::whittedLobe);
@@ -120,59 +113,45 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
                              : Color(0);
     if (!isBlack(lobe)) {
       const bool through = dot(drawn->toLight, at.normal) < 0;
-      const Path next = onward(through ? RayKind::refraction : RayKind::reflection, lobe * (1 - at.coat));
-      if (worthwhile(next)) {
-        sum.add(through ? Term::Kind::refraction : Term::Kind::reflection, lobe * (1 - at.coat),
-                follow(tracer, hit->leave(drawn->toLight), next, through ? at.behind() : inside,
-                       sampler.branch(Branch::mirrored, through)));
-      }
+      const Color share = lobe * (1 - at.coat);
+      const Path next = onward(through ? RayKind::refraction : RayKind::reflection, share);
+      if (worthwhile(next))
+        send(termOf(next.kind), share, next, {}, drawn->toLight, through ? at.behind() : inside,
+             sampler.branch(Branch::mirrored, through));
     }
   }
   if (const Color mirror = at.mirror(glossy); !isBlack(mirror)) {
-    Path next = onward(RayKind::reflection, mirror);
-    if (worthwhile(next)) {
-      const Footprint widened = mirroredAt(world, *hit, footprint.get(), ray.direction, at.normal);
-      next.differentials = widened.get();
-      sum.add(Term::Kind::reflection, mirror,
-              follow(tracer, hit->leave(mirrored(ray.direction, at.normal)), next, inside,
-                     sampler.branch(Branch::mirrored)));
-    }
+    if (const Path next = onward(RayKind::reflection, mirror); worthwhile(next))
+      send(Term::Kind::reflection, mirror, next,
+           mirroredAt(world, *hit, footprint.get(), ray.direction, at.normal),
+           mirrored(ray.direction, at.normal), inside, sampler.branch(Branch::mirrored));
   }
   std::uint32_t fan = 0;
   bool total = false;
   for (const SpectralShare& share : glossy ? at.shares().first(0) : at.shares()) {
     const Color filter = share.weight * at.filter(share);
-    Path next = onward(RayKind::refraction, filter);
+    const Path next = onward(RayKind::refraction, filter);
     const std::uint32_t number = fan++;
     if (!worthwhile(next)) continue;
-    if (const auto direction = at.through(share)) {
+    if (const auto to = at.through(share)) {
       Interfaces behind = at.behind();
       behind.wavelength = share.nanometres;
-      const Footprint widened =
-          refractedAt(world, *hit, footprint.get(), ray.direction, *direction, at.normal, at.ratio(share));
-      next.differentials = widened.get();
-      sum.add(Term::Kind::refraction, filter,
-              follow(tracer, hit->leave(*direction), next, std::move(behind),
-                     sampler.branch(Branch::refracted, number)));
+      send(Term::Kind::refraction, filter, next,
+           refractedAt(world, *hit, footprint.get(), ray.direction, *to, at.normal, at.ratio(share)), *to,
+           std::move(behind), sampler.branch(Branch::refracted, number));
     } else if (!std::exchange(total, true)) {
       sum.stop(TotalInternalReflection{});
     }
   }
   if (const Real hole = 1 - hit->opacity; hole > 0) {
     sum.cover(Term::Kind::hole, hole);
-    Path next{path.kind, path.depth + 1, path.weight * hole, path.spread};
-    if (worthwhile(next)) {
-      const Footprint widened =
-          refractedAt(world, *hit, footprint.get(), ray.direction, ray.direction, at.normal, 1);
-      next.differentials = widened.get();
-      sum.add(
-          Term::Kind::hole, Color(hole),
-          follow(tracer, hit->leave(ray.direction), next, inside, sampler.branch(Branch::whittedStraight)));
-    }
+    const Path next{path.kind, path.depth + 1, path.weight * hole, path.spread};
+    if (worthwhile(next))
+      send(Term::Kind::hole, Color(hole), next,
+           refractedAt(world, *hit, footprint.get(), ray.direction, ray.direction, at.normal, 1),
+           ray.direction, inside, sampler.branch(Branch::whittedStraight));
   }
-  seeMedia(sum, tracer, ray, hit->t, inside, sampler);
-  sum.draw(path.ink);
-  return sum.radiance(inside.passed(hit->t));
+  return arriving(hit->t, inside.passed(hit->t));
 }
 
 /// The radiance along a ray that starts in `inside`.
@@ -249,7 +228,7 @@ void Whitted::addLamps(Gather& sum, const Interaction& at, bool glossy, const Sa
 
 Color Whitted::radiance(Tracer& tracer, Sampler sampler, const CameraRay& camera) const {
   Path path;
-  path.spread = spreadOf(sampler.sample());
+  path.spread = vanDerCorput(static_cast<std::uint32_t>(sampler.sample()) + 1);
   path.differentials = camera.differentials;
   path.ink = camera.ink;
   return along(tracer, camera.ray, camera.hit, path, camera.inside, sampler);

@@ -17,11 +17,11 @@
 #include "render/photons/photons.h"
 #include "render/rays/gather.h"
 #include "render/samples/integrator.h"
-#include "shading/materials/subsurface.h"
 
 namespace trace {
 
 class Interaction;
+struct SubsurfaceBsdf;
 
 class Whitted : public Integrator {
  public:

@@ -125,7 +125,8 @@ void LightStarts::follow(Tracer& tracer, Start& start, const Sampler& sampler) c
 }
 
 std::optional<LightStarts::Start> LightStarts::start(Tracer& tracer, const Sampler& sampler) const {
-  Real which = sampler.branch(kChoice).next();
+  const bool chooses = !sums_.empty() || skyShare_ > 0 || !lamps_->isOne() || lamps_->hasBodies();
+  Real which = chooses ? sampler.branch(kChoice).next() : 0;
   if (!sums_.empty()) {
     const auto found = std::upper_bound(sums_.begin(), sums_.end(), which);
     if (found != sums_.end())

@@ -49,6 +49,12 @@ class BodyLight {
     for (int n = 0; n < points; ++n) add(static_cast<std::uint32_t>(n), 1.0 / points);
     return 0;
   }
+  /// Adds that of one point if the choice is the way through the body, where the path then ends.
+  bool takes(const Onward& onward, Real choice) const {
+    const Real likely = onward.goesIntoBody(choice);
+    if (likely > 0) add(0, 1 / likely);
+    return likely > 0;
+  }
 
  private:
   Gather& sum_;

@@ -67,6 +67,8 @@ class Onward {
   }
   /// The mirrored or the refracted ray, if there is one, without the chance of its choice.
   std::optional<Ray> only(RayKind kind, bool fromLight = false) const;
+  /// The number for choose(), drawn only where there is something to choose.
+  Real choice(Sampler& numbers) const { return toLobe_ < 1 ? numbers.next() : numbers.skip(); }
   /// How likely choose() continues by such a ray: bounce, reflection or refraction.
   Real chance(RayKind kind) const {
     return kind == RayKind::bounce ? toLobe_ : kind == RayKind::reflection ? toMirror_ : toBehind_;
@@ -77,6 +79,10 @@ class Onward {
   }
   /// It was the choice of a refracted ray that is totally reflected.
   bool totallyReflected(Real choice) const;
+  /// The weight of a ray of a path from the camera, for the wavelengths that it stands for.
+  Color seen(const Ray& ray) const {
+    return ray.kind == RayKind::refraction ? ray.weight * response_ : ray.weight;
+  }
   /// How much of a wavelength's light is one ray's, where the surface splits it.
   const Color& response() const { return response_; }
 
@@ -133,11 +139,11 @@ inline std::optional<Onward::Ray> Onward::intoLobe(const LobeNumbers& numbers) c
 /// The mirrored or refracted ray that carries more, if the surface sends any.
 std::optional<Onward::Ray> strongestOf(const Interaction& at);
 
-/// Two draws of a sampler of its own.
-inline auto lobeNumbers(Sampler numbers) {
-  return [numbers] {
+/// Two draws of a sampler of its own; the first decides nothing where there is `one` lobe.
+inline auto lobeNumbers(Sampler numbers, bool one = false) {
+  return [numbers, one] {
     Sampler own = numbers;
-    const Real which = own.next();
+    const Real which = one ? own.skip() : own.next();
     return LobeNumbers{which, own.next2()};
   };
 }

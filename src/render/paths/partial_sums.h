@@ -7,7 +7,7 @@
 //   vc   those in which the vertex before it was not reached from this end, likewise
 #pragma once
 
-#include "math/vec.h"
+#include "render/paths/path_place.h"
 
 namespace trace {
 
@@ -28,6 +28,14 @@ struct PartialSums {
   void leave(Real density, Real reverse, Real cosine) {
     vc = power(cosine / density) * (vc * power(reverse) + vcm);
     vcm = power(1 / density);
+  }
+  /// It continues from that surface with that ray, having come from there.
+  void leave(const PathPlace& place, const Onward::Ray& next, const Vec3& from) {
+    const Real cosine = place.cosine(next.direction);
+    if (next.density > 0)
+      leave(next.density, place.density(next.direction, from), cosine);
+    else
+      reflect(cosine);
   }
   /// In the only direction of a mirror or of glass, where nothing is joined.
   void reflect(Real cosine) {

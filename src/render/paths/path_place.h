@@ -13,7 +13,8 @@ namespace trace {
 class PathPlace {
  public:
   /// On a surface, where a ray of `at` has arrived.
-  explicit PathPlace(const Interaction& at) : at_(&at), inside_(&at.inside), along_(at.ray.direction) {}
+  explicit PathPlace(const Interaction& at)
+      : at_(&at), even_(evenOf(at)), inside_(&at.inside), along_(at.ray.direction) {}
   /// In a medium, where the ray is scattered.
   PathPlace(const Ray& ray, const MediumWay::Place& place, const Interfaces& inside)
       : inside_(&inside), point_(ray.at(place.t)), along_(ray.direction), forward_(place.forward) {}
@@ -32,15 +33,23 @@ class PathPlace {
   }
   /// Per solid angle, of continuing in a direction after one has come from the other.
   Real density(const Vec3& from, const Vec3& to) const {
+    if (even_) return dot(at_->normal, from) > 0 ? max(0, dot(at_->normal, to)) / kPi : 0;
     return at_ ? trace::density(at_->bsdf(), frameToward(*at_, from), from, to)
                : phase(forward_, -dot(from, to));
   }
   /// The scattering of the light from one direction to the other, of a path from the camera and of one from
   /// a light; see render/paths/onward.h.
   Color scattered(const Vec3& toEye, const Vec3& toLight) const {
+    if (even_) return scatteredEvenly(toEye, toLight);
     return at_ ? trace::scattered(*at_, toEye, toLight) : Color(phase(forward_, -dot(toEye, toLight)));
   }
   Color scatteredOn(const Vec3& toEye, const Vec3& toLight, bool lit) const {
+    if (even_ && !lit) {
+      const Vec3& flat = at_->hit.surface.normal;
+      const Real arrives = std::abs(dot(toLight, flat));
+      return arrives > 0 ? scatteredEvenly(toEye, toLight) * (std::abs(dot(toEye, flat)) / arrives)
+                         : Color(0);
+    }
     return at_ ? trace::scatteredOn(*at_, toEye, toLight, lit) : Color(phase(forward_, -dot(toEye, toLight)));
   }
   /// The scattering of a light of the scene, whose `arriving` is.
@@ -61,7 +70,26 @@ class PathPlace {
   Color visible(Tracer& tracer, const Ray& ray, Real distance, const Sampler& numbers) const;
 
  private:
+  /// The Bsdf of an opaque surface that scatters by the cosine and does nothing else, as most do; else null.
+  /// Its answers here have the same bits as trace::scattered() and trace::density().
+  static const PhongBsdf* evenOf(const Interaction& at) {
+    const auto* phong = at.bsdf().as<PhongBsdf>();
+    const bool even = phong && phong->isEven() && phong->scatters();
+    return even && !at.transmits && at.coat == 0 && !at.raised() ? phong : nullptr;
+  }
+  Color scatteredEvenly(const Vec3& toEye, const Vec3& toLight) const {
+    const Real cosine = dot(at_->normal, toLight);
+    if (!(cosine > 0) || !(dot(at_->normal, toEye) > 0)) return Color(0);
+    const Vec3& flat = at_->hit.surface.normal;
+    const auto fromOtherSide = [&] {
+      return at_->hit.twoSided && at_->hit.isBehind(-toEye) != at_->frame.inside;
+    };
+    if (dot(toLight, flat) * dot(toEye, flat) < 0 && !fromOtherSide()) return Color(0);
+    return even_->diffuse * cosine / kPi;
+  }
+
   const Interaction* at_ = nullptr;
+  const PhongBsdf* even_ = nullptr;
   const Interfaces* inside_;
   Vec3 point_, along_;
   Real forward_ = 0;

@@ -6,19 +6,27 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 
 #include "base/inline_stack.h"
 #include "render/media/media.h"
 #include "render/paths/onward.h"
 #include "render/rays/firefly.h"
 #include "render/rays/gather.h"
-#include "render/samples/sampler.h"
+#include "render/samples/integrator.h"
 #include "render/world/footprint.h"
 
 namespace trace {
 
 /// The ray with which a path continues. Integrators add what else a path carries.
 struct Leg {
+  Leg(const Ray& ray_, Interfaces inside_, const Sampler& numbers_, RayKind kind_ = RayKind::camera)
+      : ray(ray_), inside(std::move(inside_)), numbers(numbers_), kind(kind_) {}
+  Leg(const CameraRay& camera, const Sampler& numbers_) : Leg(camera.ray, camera.inside, numbers_) {
+    if (camera.differentials) footprint = *camera.differentials;
+    ink = camera.ink;
+  }
+
   Ray ray;
   Interfaces inside;  ///< what it starts in, and is in where it arrives
   Sampler numbers;    ///< numbers of the vertex that it comes from, then of that where it arrives
@@ -29,6 +37,18 @@ struct Leg {
   bool within = false;    ///< it runs in a body, from where light comes out
   /// It was scattered, and has hit since then only panes that shadow rays pass: lights were asked.
   bool asked = false;
+};
+
+/// Where a leg ends: at a light of the scene that it sees, at the surface that it hits, or nowhere.
+struct LegEnd {
+  LegEnd(const World& world, const Leg& leg, const std::optional<Hit>& hit, bool seesLights)
+      : lamp(seesLights && !leg.within ? world.lampAlong(leg.ray, hit ? hit->t : kInfinity) : std::nullopt),
+        t(lamp  ? lamp->seen.t
+          : hit ? hit->t
+                : kInfinity) {}
+
+  std::optional<World::Lamp> lamp;
+  Real t;
 };
 
 /// A vertex of a path, until it is known what its rest brings.
@@ -84,9 +104,32 @@ struct LegMedia {
   [[gnu::noinline]] void cross(Tracer& tracer, const Leg& leg, Real end, int places);
 };
 
+/// The turn of a path where a leg ends that media did not scatter.
+inline Turn& pushArrived(Turns& turns, Tracer& tracer, int depth, const Leg& leg, LegMedia& media, Real end) {
+  Turn& turn = turns.push(tracer, depth, leg.ink);
+  turn.media = std::move(media.way);
+  if (end < kInfinity && !leg.within) turn.passed = leg.inside.passed(end);
+  return turn;
+}
 /// The turn of a path where media scatter it. `share` is the MIS weight of the light that they emit.
 Turn& pushScattered(Turns& turns, Tracer& tracer, int depth, const Leg& leg, const LegMedia& media,
                     Real share = 1);
+/// Whether a path continues with a ray of that kind, which carries light if it `brings` any; `limit` is the
+/// depth that keeps it from being sent, if one does. Russian roulette lets `goes` of such paths continue, by
+/// the number that draw() gives. Notes in `sum` why the path ends.
+template <class Draw>
+bool continues(Gather& sum, RayKind kind, const std::optional<int>& limit, bool brings, Real goes,
+               const Draw& draw) {
+  if (limit)
+    sum.stop(DepthLimit{kind, *limit});
+  else if (!brings)
+    sum.stop(BelowThreshold{kind, 0, 0});
+  else if (goes < 1 && !(draw() < goes))
+    sum.stop(Roulette{kind, goes});
+  else
+    return true;
+  return false;
+}
 /// The path continues with that ray in a random direction, whose light counts by `factor`.
 inline void bounce(Leg& leg, Turn& turn, const Ray& ray, const Color& factor, Real density) {
   turn.factor = factor;

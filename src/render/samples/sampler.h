@@ -161,6 +161,11 @@ class Sampler {
     const GeneratorRow& row = rules_->generator();
     return row.first ? row.first(draw) : row.pair(draw).x;
   }
+  /// Leaves out a number, or a pair, that decides nothing, and gives 0: those after it stay what they are.
+  Real skip() {
+    ++dimension_;
+    return 0;
+  }
   Vec2 next2() {
     const Draw draw = nextDraw();
     return numbers_ ? numbers_->pair(draw.branch) : rules_->generator().pair(draw);
