@@ -164,6 +164,21 @@ bool isAbout(const Option& option, std::string_view text) {
                      [&](std::string_view word) { return all.find(word) != std::string::npos; });
 }
 
+int relevance(const Option& option, std::string_view text) {
+  const std::string name = plain(option.name), wanted = plain(text), others = plain(wordsFor(option));
+  const auto holds = [](const std::vector<std::string_view>& all, std::string_view word) {
+    return std::find(all.begin(), all.end(), word) != all.end();
+  };
+  const std::vector<std::string_view> meant = split(others), named = split(name);
+  int least = 3;
+  for (const std::string_view word : split(wanted)) {
+    const bool chosen = std::find(option.choices.begin(), option.choices.end(), word) != option.choices.end();
+    const bool best = name.starts_with(word) || holds(meant, word);
+    least = std::min(least, best ? 3 : chosen || holds(named, word) ? 2 : 1);
+  }
+  return least;
+}
+
 std::vector<std::string_view> optionsMeant(std::string_view word) {
   std::vector<std::string_view> names;
   const std::string wanted = plain(word);

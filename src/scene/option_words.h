@@ -22,6 +22,11 @@ std::string_view cameraFieldMeant(std::string_view words);
 /// small or capital.
 bool isAbout(const Option& option, std::string_view text);
 
+/// How well the text names the option, for the best first in a list: the least, over its words, of 3 where
+/// the word is the option's name, one of its other words or the start of its name, 2 where it is a word of
+/// the name or a choice, else 1.
+int relevance(const Option& option, std::string_view text);
+
 /// The names of the options that have the word among theirs.
 std::vector<std::string_view> optionsMeant(std::string_view word);
 

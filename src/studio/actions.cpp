@@ -107,7 +107,7 @@ void copyLink(Studio& studio) {
     host::copyLink(kept.text, kept.pixel);
   } catch (const Error& error) {
     studio.refuse(error.what());
-    return studio.show("Log");
+    return studio.mention("Log");
   }
   studio.workspace.note("the link is copied");
 }
@@ -289,6 +289,7 @@ void takeKeys(Studio& studio) {
   constexpr ImGuiPopupFlags kAny = ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel;
   const bool popup = ImGui::IsPopupOpen("", kAny), text = ImGui::GetIO().WantTextInput;
   const bool closed = std::exchange(studio.popupOpen, popup) && !popup;  // by a key of this frame
+  if (studio.workspace.opening()) return;  // the keys are meant for the scene that comes
   for (const KeyPress& press : studio.keys) {
     if (studio.stage && press.key == ' ') stepOnStage(studio);
     if (studio.stage && press.key == kEscape) toggleStage(studio);

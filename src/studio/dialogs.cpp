@@ -122,7 +122,7 @@ void saveSceneAnd(Studio& studio, std::function<void()> then) {
   if (!studio.workspace.document.savesOverItsFile()) return saveSceneAsAnd(studio, std::move(then));
   const std::uint64_t failures = studio.workspace.failures();
   studio.workspace.saveSceneOver();
-  if (studio.workspace.failures() > failures) return studio.show("Log");  // nobody leaves then
+  if (studio.workspace.failures() > failures) return studio.mention("Log");  // nobody leaves then
   if (then) studio.leaving = std::move(then);
 }
 

@@ -83,7 +83,8 @@ void drawDock(Studio& studio, Dock dock, const char* name, ImVec2 position, ImVe
       landmark("panel " + std::string(panel.name));
       if (ImGui::IsItemHovered())
         ImGui::SetTooltip("%s (Alt+%c); right click to move", panel.help.data(), panel.key);
-      if (dock == Dock::bottom && (asked || ImGui::IsItemClicked())) studio.layout.drawer = true;
+      if (dock == Dock::bottom && ((asked && studio.layout.opens) || ImGui::IsItemClicked()))
+        studio.layout.drawer = true;
       tabMenu(studio, panel);
       if (!open) continue;
       studio.layout.front[dock] = panel.name;
@@ -91,6 +92,7 @@ void drawDock(Studio& studio, Dock dock, const char* name, ImVec2 position, ImVe
       if (asked && std::exchange(studio.layout.focus, false)) {
         ImGui::SetNextWindowFocus();
         showKeyboardCursor();
+        studio.rays.focusTree = panel.draw == drawRays;
       }
       if (dock != Dock::bottom || studio.layout.drawer) {
         ImGui::BeginChild(panel.name.data(), {0, 0}, false, ImGuiWindowFlags_NoScrollWithMouse);
@@ -128,7 +130,7 @@ float drawBanner(Studio& studio, ImVec2 at, float width) {
   landmark("banner close");
   ImGui::SameLine();
   if (ImGui::Button("Log")) {
-    studio.show("Log");
+    studio.goTo("Log");
     close = true;
   }
   landmark("banner log");
@@ -234,7 +236,6 @@ void arrange(Studio& studio, const Arrangement& arrangement) {
   layout.shares = arrangement.shares;
   layout.arrangement = arrangement.name;
   layout.docks.clear();
-  layout.drawer = false;
   for (const Arrangement::Place& place : arrangement.places)
     layout.docks[std::string(place.panel)] = place.dock;
 }
@@ -248,10 +249,10 @@ bool isShown(const Studio& studio, std::string_view name) {
 void drawStudio(Studio& studio) {
   forgetLandmarks();
   studio.rays.coarse = false;
+  escapeDrag(studio);
   keepKeyboard(studio);
   followScene(studio);
   updateWays(studio);
-  if (!ImGui::IsAnyItemActive()) studio.editedItem = 0;
   if (studio.stage && !studio.workspace.document.isOpen()) toggleStage(studio);
   if (studio.stage) {
     drawStage(studio);
@@ -285,7 +286,7 @@ void drawStudio(Studio& studio) {
     remarks.push_back({.severity = Message::Severity::warning, .what = std::move(remark)});
   if (!remarks.empty()) {
     studio.workspace.report(remarks);
-    studio.show("Log");
+    studio.mention("Log");
   }
 }
 

@@ -83,7 +83,7 @@ bool update(Studio& studio, double longest) {
     showError(studio);
     studio.quit = false;
   }
-  if (workspace.refusals() > refusals) studio.show("Log");
+  if (workspace.refusals() > refusals) studio.mention("Log");
   const Workspace::Pulse pulse = workspace.pulse();
   const bool modelling =
       studio.rays.modelTask.busy() || studio.rays.chains.busy() || studio.rays.pyramid.busy();

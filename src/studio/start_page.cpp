@@ -77,7 +77,7 @@ void drawCards(Studio& studio, const std::vector<ExampleScene>& scenes, std::siz
 void drawStart(Studio& studio, ImVec2 area) {
   StartPage& page = studio.start;
   makePictures(page);
-  ImGui::BeginChild("start", area);
+  ImGui::BeginChild("start", area, false, ImGuiWindowFlags_NavFlattened);
   if (studio.workspace.reading()) ImGui::TextDisabled("The file is being read.");
   if (ImGui::Button("New scene...")) takeAction(studio, "New scene...");
   landmark("start new");

@@ -40,6 +40,20 @@ void keepKeyboard(Studio& studio) {
     context.NavTabbingDir = 1;
 }
 
+void escapeDrag(Studio& studio) {
+  if (!studio.workspace.document.isOpen()) return;
+  const bool escaped = studio.pressed(KeyPress::kEscape);
+  if (escaped && (studio.editedItem || studio.rays.gizmo.held)) {
+    if (studio.editedItem) studio.workspace.dropSince(studio.stepBefore);
+    studio.editedItem = 0;
+    studio.rays.gizmo.held.reset();
+    ImGui::ClearActiveID();
+    std::erase_if(studio.keys, [](const KeyPress& press) { return press.key == KeyPress::kEscape; });
+  }
+  if (!ImGui::IsAnyItemActive()) studio.editedItem = 0;
+  if (!studio.editedItem) studio.stepBefore = studio.workspace.document.step();
+}
+
 void noteKeyboard(Studio& studio) {
   ImGuiContext& context = *ImGui::GetCurrentContext();
   // Where the keyboard is, is no field: then Tab goes to the first.
@@ -66,6 +80,7 @@ void followScene(Studio& studio) {
   const Document& document = studio.workspace.document;
   if (!document.isOpen() || document.scene().file == studio.sceneFile) return;
   if (!studio.sceneFile.empty()) studio.picture.view = View::picture;  // the reference is of the other scene
+  const bool another = !studio.sceneFile.empty();
   studio.sceneFile = document.scene().file;
   studio.picture.fit = true;
   studio.picture.pixel.clear();
@@ -74,6 +89,9 @@ void followScene(Studio& studio) {
   studio.rays.sample = 0;
   studio.rays.step = -1;
   studio.rays.pyramid.alone.reset();
+  studio.keyboard = {};
+  studio.editedItem = 0;
+  if (another) studio.goTo("Picture");  // the keyboard was in a field, or at an entry, of the other scene
 }
 
 void restore(Studio& studio) {

@@ -32,6 +32,7 @@ struct Layout {
   std::map<std::string, Dock, std::less<>> docks;  ///< where they differ from the table
   std::map<Dock, std::string> front;               ///< the panel shown; one that was asked for
   std::string ask;                                 ///< bring this panel to the front in the next frame
+  bool opens = true;                               ///< and open the drawer if it is there
   bool focus = false;                              ///< and the keyboard to it
 };
 
@@ -87,7 +88,8 @@ struct Studio {
     std::string text{};
     std::shared_ptr<const Scene> scene{};
   } banner;
-  unsigned editedItem = 0;  ///< the widget whose changes make one step until it is let go
+  unsigned editedItem = 0;       ///< the widget whose changes make one step until it is let go
+  std::uint64_t stepBefore = 0;  ///< state of the document before it was taken hold of
 
   const Palette& palette() const { return studio::palette(theme.light); }
   bool pressed(int key) const {
@@ -106,10 +108,18 @@ struct Studio {
     const auto& log = workspace.log();
     if (log.empty() || log.back().text != why) workspace.note(why);
   }
-  void show(const std::string& panel) { layout.ask = panel; }
+  void show(const std::string& panel) {
+    layout.ask = panel;
+    layout.opens = true;
+  }
+  /// Its tab comes to the front, and a closed drawer stays closed: the last message stands next to its tabs.
+  void mention(const std::string& panel) {
+    layout.ask = panel;
+    layout.opens = false;
+  }
   /// With the keyboard in it.
   void goTo(const std::string& panel) {
-    layout.ask = panel;
+    show(panel);
     layout.focus = true;
   }
 };
@@ -119,6 +129,8 @@ void followScene(Studio& studio);
 
 /// Esc leaves the keyboard where it was, and Tab continues from there. Called before anything is drawn.
 void keepKeyboard(Studio& studio);
+/// Esc gives back what a drag changed, and does nothing else then. Called before anything is drawn.
+void escapeDrag(Studio& studio);
 /// Called when all is drawn.
 void noteKeyboard(Studio& studio);
 

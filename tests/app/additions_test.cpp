@@ -15,7 +15,7 @@ using Kind = Addition::Kind;
 
 std::vector<Addition> everything() {
   std::vector<Addition> all;
-  for (const Kind kind : {Kind::shape, Kind::light, Kind::material})
+  for (const Kind kind : {Kind::shape, Kind::light, Kind::material, Kind::texture})
     for (const Addition& each : additions(kind)) all.push_back(each);
   return all;
 }
@@ -58,6 +58,15 @@ TEST(Additions, HavePictures) {
     ++count;
   }
   EXPECT_LE(count, kMostWithout) << without;
+}
+
+TEST(Additions, TexturesAreOfferedWithPictures) {
+  std::set<std::string_view> names;
+  for (const Addition& each : additions(Kind::texture)) names.insert(each.name);
+  for (const char* name : {"checker", "gradient", "noise", "marble", "wood", "image"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+    EXPECT_TRUE(shows(preview({Kind::texture, name, {}}, 24))) << name;
+  }
 }
 
 TEST(Additions, LightsThatNeedNoFileAreSeenInTheirPictures) {

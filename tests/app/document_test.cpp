@@ -58,6 +58,35 @@ TEST_F(DocumentTest, ContinuedEditsAreOneStep) {
   EXPECT_TRUE(document.canUndo());
 }
 
+TEST_F(DocumentTest, ADragThatIsGivenUpLeavesNoStep) {
+  Document document;
+  document.open(path("scene.ray"));
+  document.edit("name", renamed(document.scene(), "a"));
+  const std::uint64_t before = document.step();
+  document.edit("move", renamed(document.scene(), "b"));
+  document.edit("move", renamed(document.scene(), "c"), true);
+  document.choose("width", "77");
+  document.dropSince(before);
+  EXPECT_EQ(document.scene().objects[0].name, "a");
+  EXPECT_EQ(document.settings().width, Settings{}.width);
+  EXPECT_EQ(document.undoName(), "name");
+  EXPECT_FALSE(document.canRedo());
+  document.dropSince(before);  // nothing came after it
+  EXPECT_EQ(document.undoName(), "name");
+  document.undo();
+  document.dropSince(before);  // it lies ahead
+  EXPECT_EQ(document.scene().objects[0].name, "ball");
+  EXPECT_EQ(document.redoName(), "name");
+}
+
+TEST_F(DocumentTest, AFolderThatCannotBeListedSaysWhy) {
+  EXPECT_EQ(folderProblem(path(".")), "");
+  const std::string none = path("none"), file = path("scene.ray");
+  EXPECT_EQ(folderProblem(none), "there is no folder \"" + none + '"');
+  EXPECT_EQ(folderProblem(file), '"' + file + "\" is no folder");
+  EXPECT_THROW(listFolder(none, {}), Error);
+}
+
 TEST_F(DocumentTest, OneSideOfThePictureKeepsTheScenesShape) {
   writeFile(path("sized.ray"), std::string(kScene) + "settings { width = 80; height = 60; }\n");
   Document document;

@@ -1,4 +1,5 @@
 // What follows when a field was set by hand.
+#include "app/editing/camera_words.h"
 #include "app/editing/edits.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +8,18 @@
 
 namespace trace::test {
 namespace {
+
+TEST(CameraWords, FollowLensProjectionAndEyes) {
+  Settings settings;
+  EXPECT_EQ(cameraSentence(settings), "pinhole camera");
+  settings.aperture = 0.25;
+  EXPECT_EQ(cameraSentence(settings), "camera with a lens of aperture 0.25");
+  settings.projection = Projection::fisheye;
+  EXPECT_EQ(cameraSentence(settings), "fisheye camera with a lens of aperture 0.25");
+  settings.aperture = 0;
+  settings.stereo = Stereo::sideBySide;
+  EXPECT_EQ(cameraSentence(settings), "fisheye camera, once for each eye");
+}
 
 TEST(Edits, AMirrorSetByHandFollowsTheHighlightNoMore) {
   Phong phong;

@@ -180,7 +180,7 @@ TEST(PixelWhy, LightThatGlassFiltersSaysSo) {
   EXPECT_EQ(pixel.why.sentence, "In shadow: ball filters directional_light to 25 %.");
   const std::string clear = "transmissive = (0.95, 0.95, 0.95); index = 1.5;";
   EXPECT_EQ(traced(litFloor(std::string(kSun), clear), {.width = 40}, 20, 20).why.sentence,
-            "floor shows only light directional_light, filtered by ball to 90 %.");
+            "floor shows only the light of directional_light, filtered by ball to 90 %.");
   EXPECT_EQ(filtersOf(rayAt(pixel.tree(), 1), pixel.scene()), "ball");
   EXPECT_EQ(shortEnd(rayAt(pixel.tree(), 1)).find("filtered to "), 0u);
   const Settings black{.width = 40, .glassShadows = GlassShadows::black};
@@ -243,7 +243,7 @@ TEST(PixelWhy, TheSummandsAddUpToTheRadiance) {
   }
   EXPECT_EQ(sumAfter(why.sum, 0), Color(0));
   EXPECT_NEAR(before, whole.r, 1e-12);
-  EXPECT_EQ(why.sentence, "ball shows mostly light sun.");
+  EXPECT_EQ(why.sentence, "ball shows mostly the light of sun.");
   const bool named = std::any_of(why.sum.begin(), why.sum.end(),
                                  [](const WhySummand& each) { return each.name == "ambient"; });
   EXPECT_TRUE(named);

@@ -58,6 +58,11 @@ TEST(OptionWords, NameLeastValuesThatAreNoQuantity) {
 
 TEST(OptionWords, AreHints) {
   using Names = std::vector<std::string_view>;
+  for (const Option& option : options())
+    if (isAbout(option, "black"))
+      EXPECT_EQ(relevance(option, "black") == 3, option.name == "depth") << option.name;
+  EXPECT_EQ(relevance(findOption("medium-depth"), "depth"), 2);
+  EXPECT_EQ(relevance(findOption("depth"), "Depth"), 3);
   EXPECT_EQ(optionsMeant("antialias"), (Names{"spp", "subdivide", "subdivide-threshold"}));
   EXPECT_EQ(optionsMeant("Resolution"), (Names{"width", "height"}));
   EXPECT_EQ(optionsMeant("widht"), Names{});

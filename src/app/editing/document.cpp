@@ -149,6 +149,7 @@ void Document::settle() {
 }
 
 void Document::push(Edition edition, bool continues) {
+  edition.step = ++steps_;
   if (continues && current_ > 0 && editions_[current_].what == edition.what) {
     editions_.resize(current_ + 1);
     editions_[current_] = std::move(edition);
@@ -158,6 +159,15 @@ void Document::push(Edition edition, bool continues) {
     if (editions_.size() > kMostEditions) editions_.erase(editions_.begin());
     current_ = editions_.size() - 1;
   }
+  settle();
+}
+
+void Document::dropSince(std::uint64_t step) {
+  std::size_t earlier = current_;
+  while (earlier > 0 && editions_[earlier].step != step) --earlier;
+  if (earlier == current_ || editions_[earlier].step != step) return;
+  current_ = earlier;
+  editions_.resize(current_ + 1);
   settle();
 }
 

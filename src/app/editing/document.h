@@ -58,6 +58,10 @@ class Document {
   bool canRedo() const { return current_ + 1 < editions_.size(); }
   void undo();
   void redo();
+  /// Number of the present state; no other state of this document has it.
+  std::uint64_t step() const { return editions_[current_].step; }
+  /// Drops the states after that one, if it is earlier than the present one: a drag was given up.
+  void dropSince(std::uint64_t step);
   /// Name of the edit that undo() takes back, and that redo() makes again; "" if nothing.
   std::string undoName() const { return canUndo() ? editions_[current_].what : ""; }
   std::string redoName() const { return canRedo() ? editions_[current_ + 1].what : ""; }
@@ -156,6 +160,7 @@ class Document {
     std::shared_ptr<const Scene> scene;
     std::shared_ptr<const SceneText> text;  ///< from which the scene was read, before it was edited
     std::vector<Choice> choices;
+    std::uint64_t step = 0;
   };
   static constexpr std::size_t kMostEditions = 1000;
 
@@ -185,7 +190,7 @@ class Document {
   bool changesWithTime_ = false;
   Settings settings_;
   Messages messages_;
-  std::uint64_t revision_ = 0, readings_ = 0;
+  std::uint64_t revision_ = 0, readings_ = 0, steps_ = 0;
 };
 
 }  // namespace trace

@@ -17,7 +17,19 @@ std::string lower(std::string text) {
   return text;
 }
 
+std::string problemOf(const std::string& folder, const std::error_code& error) {
+  if (error == std::errc::no_such_file_or_directory) return "there is no folder \"" + folder + '"';
+  if (error == std::errc::not_a_directory) return '"' + folder + "\" is no folder";
+  return "the folder \"" + folder + "\" cannot be read: " + error.message();
+}
+
 }  // namespace
+
+std::string folderProblem(const std::string& path) {
+  std::error_code error;
+  const fs::directory_iterator begins(path, error);
+  return error ? problemOf(path, error) : "";
+}
 
 std::vector<FolderEntry> listFolder(const std::string& path, const std::vector<std::string>& suffixes) {
   std::error_code error;
@@ -32,7 +44,7 @@ std::vector<FolderEntry> listFolder(const std::string& path, const std::vector<s
     const std::uint64_t bytes = folder ? 0 : i->file_size(ignored);
     entries.push_back({name, folder, ignored ? 0 : bytes});
   }
-  if (error) throw Error(Fault::io, "cannot list \"" + path + "\": " + error.message());
+  if (error) throw Error(Fault::io, problemOf(path, error));
   std::sort(entries.begin(), entries.end(), [](const FolderEntry& a, const FolderEntry& b) {
     if (a.folder != b.folder) return a.folder;
     const std::string x = lower(a.name), y = lower(b.name);
@@ -43,6 +55,11 @@ std::vector<FolderEntry> listFolder(const std::string& path, const std::vector<s
 
 std::string withSuffix(const std::string& name, const std::string& suffix) {
   return fs::path(name).has_extension() ? name : name + suffix;
+}
+
+std::string absoluteFolder(const std::string& path) {
+  std::error_code ignored;
+  return fs::absolute(path.empty() ? "." : path, ignored).lexically_normal().generic_string();
 }
 
 std::string nearestFolder(const std::string& path) {

@@ -21,6 +21,12 @@ std::vector<FolderEntry> listFolder(const std::string& path, const std::vector<s
 /// The name with that suffix if it has none.
 std::string withSuffix(const std::string& name, const std::string& suffix);
 
+/// Why the files of the folder cannot be listed, in words; "" if they can.
+std::string folderProblem(const std::string& path);
+
+/// The path from the root, without "." and "..".
+std::string absoluteFolder(const std::string& path);
+
 /// The folder itself, or the nearest one above that exists; the current folder for "".
 std::string nearestFolder(const std::string& path);
 

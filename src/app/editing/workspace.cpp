@@ -236,6 +236,11 @@ Settings Workspace::chosenSettings() const {
   return settingsFor(document.scene(), {document.scene().choices, source.commandLine, source.choices});
 }
 
+void Workspace::dropSince(std::uint64_t step) {
+  if (wanted_ && !wanted_->option.empty()) undo();
+  document.dropSince(step);
+}
+
 void Workspace::undo() {
   if (!wanted_ || wanted_->option.empty()) return document.undo();
   const bool anew = wanted_->anew;

@@ -64,6 +64,8 @@ class Workspace {
   Settings chosenSettings() const;
   /// Takes the last change back, also one for which the file is still being read.
   void undo();
+  /// As Document::dropSince; a value for which the file is being read is dropped, too.
+  void dropSince(std::uint64_t step);
   void redo() { document.redo(); }
   /// Name of the edit that undo() takes back; "" if nothing.
   std::string undoName() const { return wanted_ ? wanted_->option : document.undoName(); }
@@ -103,6 +105,8 @@ class Workspace {
   bool reading() const {
     return opening_.pending() || rereading_.pending() || loading_.pending() || completing_.pending();
   }
+  /// Another scene is being read, or written and read.
+  bool opening() const { return opening_.pending(); }
   bool saving() const { return saving_.pending(); }
   /// Files that were written since the last call.
   std::vector<std::string> takeWritten() { return std::exchange(written_, {}); }

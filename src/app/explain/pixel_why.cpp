@@ -9,6 +9,7 @@
 #include "app/explain/ray_words.h"
 #include "base/text.h"
 #include "math/elementary.h"
+#include "scene/groups.h"
 #include "scene/options.h"
 #include "shading/bsdf.h"
 #include "shading/lights/ambient_light.h"
@@ -29,6 +30,19 @@ struct Loss {
 
 Real brightness(const Color& c) { return std::max(maxComponent(c), 0.0); }
 
+/// The object within a sentence: its name, or "the square (scene.ray:3)" where it has none.
+std::string thing(const Scene& scene, std::uint32_t object) {
+  const NumberedObject found = objectOf(scene, object);
+  const bool named = !found.object || !found.object->name.empty();
+  return (named ? "" : "the ") + objectName(scene, object);
+}
+
+/// A sentence that begins with an article begins with a capital letter.
+std::string begun(std::string sentence) {
+  if (sentence.starts_with("the ")) sentence.front() = 'T';
+  return sentence + ".";
+}
+
 WhyCure select(const Scene& scene, std::uint32_t object) {
   WhyCure cure{"Select " + objectName(scene, object)};
   cure.object = object;
@@ -45,7 +59,7 @@ WhyCure byOption(std::string_view option, const std::string& value) {
 /// "the ray that should leave ball", "the ray that ball should reflect".
 std::string unsentRay(RayKind unsent, const RayNode& node, const Scene& scene) {
   if (!node.hit) return "the next ray";
-  const std::string object = objectName(scene, node.hit->object);
+  const std::string object = thing(scene, node.hit->object);
   switch (unsent) {
     case RayKind::refraction:
       return std::string("the ray that should ") + (node.hit->leaving ? "leave " : "enter ") + object;
@@ -119,7 +133,7 @@ class Search {
         if (term.goesOn()) sent += brightness(term.factor);
       const WhittedTerms& terms = whitted(*node.bsdf);
       const Real lost = brightness(terms.transmissive) - std::max(0.0, sent - brightness(terms.reflective));
-      const std::string object = objectName(scene_, node.hit->object);
+      const std::string object = thing(scene_, node.hit->object);
       Loss loss{weight * kGuess * lost,
                 ray,
                 "total internal reflection: the ray cannot leave " + object + " there",
@@ -147,7 +161,7 @@ class Search {
     if (node.parent < 0 || shown_ * scale >= kDark || brightness(node.radiance) * scale >= kBlack) return;
     const RayNode& from = rayAt(tree_, node.parent);
     if (!from.hit || (node.kind != RayKind::refraction && node.kind != RayKind::reflection)) return;
-    const std::string object = objectName(scene_, from.hit->object);
+    const std::string object = thing(scene_, from.hit->object);
     const bool inSight = std::any_of(scene_.background.colors.begin(), scene_.background.colors.end(),
                                      [](const Color& color) { return !isBlack(color); });
     offer({weight * kGuess, ray,
@@ -181,7 +195,7 @@ class Search {
     }
     // No shadow ray was sent: the surface scatters nothing of it.
     if (!scatters(node)) return;
-    const std::string object = objectName(scene_, node.hit->object), name = shortLightName(scene_, light);
+    const std::string object = thing(scene_, node.hit->object), name = shortLightName(scene_, light);
     const SurfacePoint& at = node.hit->surface;
     const Vec3& toward = term.light->arriving.toLight;
     const Real arrives = brightness(term.light->arriving.intensity());
@@ -222,13 +236,13 @@ class Search {
     }
     loss.ray = worst->ray;
     loss.head = "In shadow: ";
-    const std::string object = objectName(scene_, node.hit->object), blocked = lightsText(lights);
+    const std::string object = thing(scene_, node.hit->object), blocked = lightsText(lights);
     if (blockers.size() == 1 && blockers.front() == node.hit->object) {
       loss.why = object + " is in its own shadow: it blocks " + blocked;
     } else {
       std::vector<std::string> names;
       for (const std::uint32_t blocker : blockers)
-        names.push_back(blocker == node.hit->object ? object + " itself" : objectName(scene_, blocker));
+        names.push_back(blocker == node.hit->object ? object + " itself" : thing(scene_, blocker));
       loss.why = listed(names) + (names.size() > 1 ? " block " : " blocks ") + blocked + " from " + object;
     }
     loss.cures.push_back(select(scene_, worst->stop.object));
@@ -330,9 +344,34 @@ int lastBelow(const RayTree& tree, int ray) {
   return last;
 }
 
+/// The summand in words: "the light of sun", "a reflection".
+std::string phraseOf(Term::Kind kind, const std::string& light) {
+  using Kind = Term::Kind;
+  switch (kind) {
+    case Kind::emissive: return "its own emission";
+    case Kind::ambient: return "ambient light";
+    case Kind::light: return "the light of " + light;
+    case Kind::caustic: return "light that glass or a mirror focuses";
+    case Kind::photons: return "light from the photon map";
+    case Kind::reflection: return "a reflection";
+    case Kind::refraction: return "what is seen through it";
+    case Kind::bounce: return "indirect light";
+    case Kind::lamp: return light.empty() ? "the light of emissive objects" : "the light of " + light;
+    case Kind::joined: return "light along connected paths";
+    case Kind::background: return "the background";
+    case Kind::fog: return "light that fog scatters";
+    case Kind::medium: return "light that its medium scatters";
+    case Kind::subsurface: return "light that is scattered below its surface";
+    case Kind::hole: return "what is behind its holes";
+    case Kind::outline: return "its outline";
+    case Kind::irradiance: return "indirect light from the irradiance cache";
+  }
+  return "";
+}
+
 /// The object or light that the camera ray came to.
 std::string thingSeen(const RayNode& root, const Scene& scene) {
-  return root.hit ? objectName(scene, root.hit->object) : "";
+  return root.hit ? thing(scene, root.hit->object) : "";
 }
 
 }  // namespace
@@ -354,7 +393,7 @@ std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene, int ray) 
         std::find_if(sum.begin(), sum.end(), [&](const WhySummand& s) { return s.name == name; });
     const int last = term.ray < 0 ? ray : lastBelow(tree, term.ray);
     if (same == sum.end()) {
-      sum.push_back({name, brief, color, term.ray, last});
+      sum.push_back({name, brief, color, term.ray, last, phraseOf(term.kind, term.light ? brief : "")});
     } else {
       same->color = same->color + color;
       same->last = std::max(same->last, last);
@@ -415,7 +454,7 @@ PixelWhy whyOf(const RayTree& tree, const Scene& scene, const Settings& settings
     return why;
   }
   if (std::optional<Loss> loss = lossOf(tree, scene, settings, retrace, shown, scale)) {
-    why.sentence = (head.empty() ? std::string(loss->head) : head) + loss->why + ".";
+    why.sentence = begun((head.empty() ? std::string(loss->head) : head) + loss->why);
     why.ray = loss->ray;
     why.cures = std::move(loss->cures);
     return why;
@@ -440,11 +479,11 @@ PixelWhy whyOf(const RayTree& tree, const Scene& scene, const Settings& settings
     why.cures = {cure};
   } else if (most != why.sum.end()) {
     const Real share = brightness(most->color) / brightness(root.radiance);
-    why.sentence = head + object + " shows " +
-                   (share > 0.95  ? "only "
-                    : share > 0.5 ? "mostly "
-                                  : "most of all ") +
-                   most->name + filterOf(tree, scene, *most) + ".";
+    why.sentence = begun(head + object + " shows " +
+                         (share > 0.95  ? "only "
+                          : share > 0.5 ? "mostly "
+                                        : "several kinds of light, above all ") +
+                         most->phrase + filterOf(tree, scene, *most));
   }
   return why;
 }

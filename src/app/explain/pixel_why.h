@@ -18,8 +18,9 @@ struct WhySummand {
   std::string name;   ///< "reflection", "light lamp"
   std::string brief;  ///< "reflection", "lamp"
   Color color;
-  int ray = -1;   ///< the first ray that it came along; -1: none
-  int last = -1;  ///< the last ray that it needs, in the order of tracing
+  int ray = -1;          ///< the first ray that it came along; -1: none
+  int last = -1;         ///< the last ray that it needs, in the order of tracing
+  std::string phrase{};  ///< within a sentence: "a reflection", "the light of lamp"
 };
 
 /// A change that may cure the pixel: a value of an option, or a thing of the scene to look at.

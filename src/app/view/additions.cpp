@@ -6,11 +6,13 @@
 #include <string>
 
 #include "app/editing/placing.h"
+#include "app/editing/texture_edits.h"
 #include "app/view/examples.h"
 #include "formats/format.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellate.h"
 #include "geometry/shapes/solids/csg_tree.h"
+#include "image/maps/mipmap.h"
 #include "scene/scene.h"
 #include "shading/library.h"
 #include "shading/optics/substances.h"
@@ -99,6 +101,29 @@ Scene sceneOfMaterial(std::string_view name) {
                  "sphere { material = { library = \"" + std::string(name) + "\" } }\n");
 }
 
+/// A picture for those that need one: red across, green upward.
+std::shared_ptr<const MipMap> testPicture() {
+  constexpr int kSide = 16;
+  Picture picture(kSide, kSide);
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      picture.at(x, y) =
+          Color(x / (kSide - 1.0), 1 - y / (kSide - 1.0), 0.3) * ((x / 4 + y / 4) % 2 ? 1.0 : 0.5);
+  return std::make_shared<const MipMap>(picture);
+}
+
+/// A ball of that texture.
+Scene sceneOfTexture(std::string_view name) {
+  Scene scene = sceneOf(std::string(kStage) + std::string(kSun) + std::string(kFloor) +
+                        "sphere { material = { diffuse = (0.9, 0.9, 0.9); ambient = (0.9, 0.9, 0.9) } }\n");
+  TextureNode node = *textureOfKind(name);
+  editEachField(node.model, [&]<class Value>(const TextureField&, Value& value) {
+    if constexpr (std::is_same_v<Value, Pixels>) value.map = testPicture();
+  });
+  setTexture(scene.materials[scene.objects.back().material].textures, "diffuse", std::move(node));
+  return scene;
+}
+
 bool holds(std::string_view text, std::string_view word) {
   const auto small = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   return std::search(text.begin(), text.end(), word.begin(), word.end(),
@@ -120,6 +145,10 @@ std::vector<Addition> additions(Addition::Kind kind) {
     case Addition::Kind::material:
       for (const std::string_view name : libraryNames()) all.push_back({kind, name, helpOf(name)});
       break;
+    case Addition::Kind::texture:
+      for (const TextureKind& texture : textureKindsToChoose())
+        all.push_back({kind, texture.keyword, texture.help});
+      break;
   }
   return all;
 }
@@ -140,6 +169,7 @@ Bytes preview(const Addition& addition, int side) {
       case Addition::Kind::shape: return thumbnail(sceneOfShape(addition.name), side);
       case Addition::Kind::light: return thumbnail(sceneOfLight(addition.name), side);
       case Addition::Kind::material: return thumbnail(sceneOfMaterial(addition.name), side);
+      case Addition::Kind::texture: return thumbnail(sceneOfTexture(addition.name), side);
     }
   } catch (const std::exception&) {  // a light whose file nobody has chosen yet
   }

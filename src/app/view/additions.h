@@ -1,4 +1,4 @@
-// The shapes, lights and materials that a person may add to a scene, each with a small picture.
+// The shapes, lights, materials and textures that a person may add to a scene, each with a small picture.
 #pragma once
 
 #include <string_view>
@@ -8,9 +8,9 @@
 
 namespace trace {
 
-/// A shape, a light, or a material of the library.
+/// A shape, a light, a material of the library, or a kind of texture.
 struct Addition {
-  enum class Kind { shape, light, material };
+  enum class Kind { shape, light, material, texture };
   Kind kind = Kind::shape;
   std::string_view name, help;
   bool operator==(const Addition&) const = default;

@@ -5,6 +5,7 @@
 #include "app/view/picture_views.h"
 #include "studio/actions.h"
 #include "studio/picture/picture_parts.h"
+#include "studio/widgets/drag.h"
 #include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 
@@ -97,6 +98,7 @@ void drawBar(Studio& studio) {
   ImGui::SetNextItemWidth(characters(kExposure));
   ImGui::DragFloat("##exposure", &view.exposure, 0.02f, -6, 6,
                    view.exposure == 0 ? "exposure 0" : "exposure %+.1f");
+  escapable(view.exposure);
   if (ImGui::IsItemHovered())
     ImGui::SetTooltip("drag: stops, powers of two; only what is shown, not what is saved\nright click: 0");
   if (ImGui::IsItemClicked(1)) view.exposure = 0;
@@ -131,6 +133,7 @@ void drawBar(Studio& studio) {
     roomFor(characters(14));
     ImGui::SetNextItemWidth(characters(14));
     ImGui::DragFloat("##magnify", &view.magnify, std::max(0.1f, view.magnify / 100), 1, 255, "x %.0f");
+    escapable(view.magnify);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("drag: by which differences are magnified");
   }
 }

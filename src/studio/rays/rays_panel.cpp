@@ -16,6 +16,7 @@
 #include "studio/panels.h"
 #include "studio/rays/ray_rows.h"
 #include "studio/space/rays_view.h"
+#include "studio/widgets/drag.h"
 #include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 
@@ -35,6 +36,7 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
   if (samples > 1) {
     ImGui::SetNextItemWidth(characters(18));
     ImGui::DragInt("##sample", &view.sample, 0.1f, 0, samples - 1, "sample %d", ImGuiSliderFlags_AlwaysClamp);
+    escapable(view.sample);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("drag: the samples of the pixel, from 0");
     if (roomy) ImGui::SameLine();
   }
@@ -88,6 +90,7 @@ void drawBoxes(Studio& studio) {
   std::snprintf(format, sizeof format, "box %%d of %d", count);
   ImGui::SetNextItemWidth(-characters(10));
   ImGui::DragInt("##box", &view.box, 0.1f, 1, count, format, ImGuiSliderFlags_AlwaysClamp);
+  escapable(view.box);
   ImGui::SameLine();
   if (ImGui::Button("Hide")) view.boxesOf = -1;
 }
@@ -276,6 +279,12 @@ void drawNote(const Studio& studio, const TracedPixel& pixel) {
         "among this pixel's rays");
 }
 
+/// The head and the rows that a low window shows of the tree.
+float heightOfTree() {
+  constexpr float kRows = 8;
+  return (kRows + 1) * (ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y) + 2;
+}
+
 }  // namespace
 
 void drawRays(Studio& studio) {
@@ -289,9 +298,13 @@ void drawRays(Studio& studio) {
   const bool low = height < 35 * ImGui::GetTextLineHeight();    // then the tree needs every line
   const float least = std::min(characters(30), 0.5f * height);  // below that nothing is recognized
   const float share = !pixel ? 0.88f : low ? 0.34f : view.pyramid.open ? 0.38f : 0.45f;
-  ImGui::BeginChild("space", {0, std::max(least, share * height)}, false, ImGuiWindowFlags_NoScrollWithMouse);
+  float space = std::max(least, share * height);
+  if (pixel && low && view.between > 0)
+    space = std::clamp(height - view.between - heightOfTree(), std::min(characters(16), space), space);
+  ImGui::BeginChild("space", {0, space}, false, ImGuiWindowFlags_NoScrollWithMouse);
   drawSpace(studio);
   ImGui::EndChild();
+  const float belowSpace = ImGui::GetCursorPosY();
   if (!inspector.traced()) {
     ImGui::PushTextWrapPos();
     ImGui::TextDisabled(
@@ -314,6 +327,7 @@ void drawRays(Studio& studio) {
         if (!ImGui::BeginTabItem(name, nullptr, flags)) return;
         if (flags) studio.raysTab.clear();
         landmark("tab " + std::string(name));
+        view.between = ImGui::GetCursorPosY() - belowSpace + ImGui::GetStyle().ItemSpacing.y;
         ImGui::BeginChild(name);
         draw(studio, *pixel);
         ImGui::EndChild();

@@ -2,11 +2,14 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
 #include "app/explain/ray_words.h"
 #include "studio/rays/ray_rows.h"
 #include "studio/space/rays_view.h"
 #include "studio/widgets/field_editor.h"
+#include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
 namespace {
@@ -29,12 +32,19 @@ float indentOf(const TracedPixel& pixel, float column) {
   return std::min(ImGui::GetFontSize() * 0.75f, room / levels);
 }
 
+/// The arrow keys have just come to the last item, which is in the row of this ray.
+bool reachedByKey(RaysView& view, int ray) {
+  if (!ImGui::IsItemFocused() || std::exchange(view.keyRow, ray) == ray) return false;
+  return ImGui::GetIO().NavVisible;
+}
+
 /// With so much room left free below it.
 void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<int>& rows, float below) {
   RaysView& view = studio.rays;
   const std::vector<RayNode>& nodes = pixel.tree().nodes;
   // Where its sentences would be cut to a word, the last column goes: the row's tooltip has them.
   const bool ends = ImGui::GetContentRegionAvail().x >= characters(kWordsInFour);
+  if (std::exchange(view.focusTree, false)) ImGui::SetNextWindowFocus();
   if (!ImGui::BeginTable(ends ? "tree" : "narrow tree", ends ? 4 : 3, kRayTable, {0, -below})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, ends ? 0.44f : 0.6f);
@@ -71,6 +81,9 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
           ImGui::Selectable("##row", i == view.selected,
                             ImGuiSelectableFlags_SpanAllColumns | ImGuiSelectableFlags_AllowItemOverlap);
       const bool overRow = ImGui::IsItemHovered();
+      bool reached = reachedByKey(view, i);
+      if (i == view.selected) ImGui::SetItemDefaultFocus();
+      landmark("ray " + std::to_string(i));
       if (i == pixel.why.ray) {  // also where it is selected
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
         ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + 0.25f * ImGui::GetFontSize(), high.y},
@@ -86,9 +99,10 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
       const float room = ImGui::GetContentRegionAvail().x - ImGui::GetTreeNodeToLabelSpacing();
       const bool open = ImGui::TreeNodeEx("##node", flags, "%s", shortened(rayName(pixel, i), room).c_str());
       ImGui::PopStyleColor();
+      reached = reachedByKey(view, i) || reached;
       if (ImGui::IsItemToggledOpen())
         view.closed[n] = !open;
-      else if (chosen || ImGui::IsItemClicked())
+      else if (chosen || reached || ImGui::IsItemClicked())
         view.selected = i;
       if (overRow || ImGui::IsItemHovered()) {
         view.hovered = i;

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "app/editing/placing.h"
+#include "app/editing/scene_changes.h"
+#include "app/editing/texture_edits.h"
 #include "app/view/scene_model.h"
 #include "geometry/mesh/tessellate.h"
 #include "render/world/hit.h"
@@ -103,8 +105,51 @@ std::size_t materialCalled(Scene& scene, const std::string& name) {
   return index;
 }
 
+/// The material of the object or the material that is selected, if one is.
+std::optional<std::size_t> selectedMaterial(const Studio& studio, const Scene& scene) {
+  const std::size_t index = studio.selectedIndex;
+  if (studio.selected == Selected::material && index < scene.materials.size()) return index;
+  if (studio.selected == Selected::object && index < scene.objects.size() &&
+      scene.objects[index].material < scene.materials.size())
+    return scene.objects[index].material;
+  return {};
+}
+
+/// The field that gives the material its colour; "" if it has none.
+std::string_view colourField(const MaterialModel& model) {
+  std::string_view found;
+  forEachField(model, [&](const ModelField& field, const auto&) {
+    if (field.keyword == kDiffuse || field.keyword == kColor) found = field.keyword;
+  });
+  return found;
+}
+
+/// On the colour of the selected material. Where others use it too, the object gets its own.
+void addTexture(Studio& studio, const std::string& kind) {
+  Scene scene = studio.workspace.document.scene();
+  std::optional<std::size_t> material = selectedMaterial(studio, scene);
+  if (!material) return studio.refuse("no texture was added: select an object or a material first");
+  const bool shared = usersOf(scene, static_cast<std::uint32_t>(*material)) > 1;
+  if (studio.selected == Selected::object && shared) {
+    Material own = scene.materials[*material];
+    own.name.clear();
+    scene.materials.push_back(std::move(own));
+    material = scene.materials.size() - 1;
+    scene.objects[studio.selectedIndex].material = static_cast<std::uint32_t>(*material);
+  }
+  Material& now = scene.materials[*material];
+  const std::string_view field = colourField(now.model);
+  if (field.empty()) return studio.refuse("no texture was added: the material has no colour");
+  const trace::Texture* before = textureOf(now.textures, field);
+  if (!before)  // black would hide it
+    changeColors(now.model, {field}, [](const Color& c) { return c == Color(0) ? Color(1) : c; });
+  setTexture(now.textures, field, textureOfKind(kind, before));
+  studio.workspace.edit("add " + kind, std::move(scene));
+}
+
 /// As one step; then it is selected. A material goes to the selected object, if there is one.
 void add(Studio& studio, const Addition& addition) {
+  if (addition.kind == Addition::Kind::texture) return addTexture(studio, std::string(addition.name));
   Scene scene = studio.workspace.document.scene();
   const std::string name(addition.name);
   Selected kind = Selected::object;
@@ -137,10 +182,11 @@ void add(Studio& studio, const Addition& addition) {
       if (given) index = studio.selectedIndex;
       break;
     }
+    case Addition::Kind::texture: return;
   }
   const std::size_t told = studio.workspace.log().size();
   studio.workspace.edit("add " + name, std::move(scene));
-  if (studio.workspace.log().size() > told) studio.show("Log");
+  if (studio.workspace.log().size() > told) studio.mention("Log");
   if (index < howMany(studio.workspace.document.scene(), kind)) studio.select(kind, index);
 }
 
@@ -205,14 +251,16 @@ void drawAdditions(Studio& studio) {
     ImGui::SetKeyboardFocusHere();
   }
   ImGui::SetNextItemWidth(-1);
-  const bool entered = ImGui::InputTextWithHint("##find", "find a shape, a light or a material", words,
-                                                sizeof words, ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered = ImGui::InputTextWithHint("##find", "find a shape, a light, a material or a texture",
+                                                words, sizeof words, ImGuiInputTextFlags_EnterReturnsTrue);
   landmark("find an addition");
   static const std::pair<const char*, std::vector<Addition>> kSections[] = {
       {"Objects", additions(Addition::Kind::shape)},
       {"Lights", additions(Addition::Kind::light)},
-      {"Materials of the library", additions(Addition::Kind::material)}};
-  ImGui::BeginChild("cards", {0, -ImGui::GetTextLineHeightWithSpacing()});
+      {"Materials of the library", additions(Addition::Kind::material)},
+      {"Textures, for the colour of what is selected", additions(Addition::Kind::texture)}};
+  ImGui::BeginChild("cards", {0, -ImGui::GetTextLineHeightWithSpacing()}, false,
+                    ImGuiWindowFlags_NavFlattened);
   Cards cards;
   for (const auto& [title, list] : kSections) {
     ImGui::TextUnformatted(title);
@@ -224,7 +272,7 @@ void drawAdditions(Studio& studio) {
     ImGui::Spacing();
   }
   ImGui::EndChild();
-  const std::string help = !cards.first ? "patterns such as checker: the button at the end of a colour's line"
+  const std::string help = !cards.first ? "nothing of that name"
                            : !cards.over
                                ? "a new object stands on what the middle of the picture shows"
                                : std::string(cards.over->name) + ": " + std::string(cards.over->help);

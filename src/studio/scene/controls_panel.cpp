@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/editing/typed_file.h"
 #include "app/editing/typed_region.h"
@@ -175,7 +176,7 @@ std::optional<std::string> editFile(Studio& studio, const Option& option, const 
     return typedFile(text, std::string(option.name), scene);
   } catch (const Error& error) {
     studio.workspace.report(error.messages());
-    studio.show("Log");
+    studio.mention("Log");
     return {};
   }
 }
@@ -207,7 +208,7 @@ void choose(Studio& studio, const Option& option, const std::string& value, unsi
     studio.workspace.choose(std::string(option.name), value, continues);
   } catch (const Error& error) {
     studio.workspace.report(error.messages());
-    studio.show("Log");
+    studio.mention("Log");
   }
 }
 
@@ -241,6 +242,41 @@ void row(Studio& studio, const Option& option, const Settings& defaults, const S
   ImGui::PopID();
   if (reset) return studio.workspace.reset(name);
   if (given && *given != value) choose(studio, option, *given, id);
+}
+
+bool beginOptions(const std::string& name) {
+  if (!ImGui::BeginTable(name.c_str(), 2, ImGuiTableFlags_SizingStretchProp)) return false;
+  ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.48f);
+  ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.52f);
+  return true;
+}
+
+/// Group by group.
+void drawGroups(Studio& studio, const std::vector<const Option*>& all, const Settings& defaults,
+                const Settings& now) {
+  std::string_view group;
+  bool table = false;
+  for (const Option* option : all) {
+    if (option->group != group) {
+      if (table) ImGui::EndTable();
+      group = option->group;
+      const std::string name(group);
+      table = ImGui::CollapsingHeader(name.c_str(), ImGuiTreeNodeFlags_DefaultOpen) && beginOptions(name);
+    }
+    if (table) row(studio, *option, defaults, now);
+  }
+  if (table) ImGui::EndTable();
+}
+
+/// The options that a search found, the best first.
+void drawFound(Studio& studio, std::vector<const Option*> found, std::string_view words,
+               const Settings& defaults, const Settings& now) {
+  std::stable_sort(found.begin(), found.end(), [&](const Option* a, const Option* b) {
+    return relevance(*a, words) > relevance(*b, words);
+  });
+  if (found.empty() || !beginOptions("found")) return;
+  for (const Option* option : found) row(studio, *option, defaults, now);
+  ImGui::EndTable();
 }
 
 }  // namespace
@@ -315,26 +351,14 @@ void drawControls(Studio& studio) {
       studio.show("Scene");
     }
   }
-  std::string_view group;
-  bool shown = false, table = false, found = hinted;
-  for (const Option& option : options()) {
-    if (!wanted(option)) continue;
-    found = true;
-    if (option.group != group) {
-      if (table) ImGui::EndTable();
-      table = false;
-      group = option.group;
-      shown = ImGui::CollapsingHeader(std::string(group).c_str(), ImGuiTreeNodeFlags_DefaultOpen);
-      if (shown) {
-        table = ImGui::BeginTable(std::string(group).c_str(), 2, ImGuiTableFlags_SizingStretchProp);
-        ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.48f);
-        ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.52f);
-      }
-    }
-    if (table) row(studio, option, defaults, now);
-  }
-  if (table) ImGui::EndTable();
-  if (!found) {
+  std::vector<const Option*> found;
+  for (const Option& option : options())
+    if (wanted(option)) found.push_back(&option);
+  if (filter[0])
+    drawFound(studio, found, filter, defaults, now);
+  else
+    drawGroups(studio, found, defaults, now);
+  if (found.empty() && !hinted) {
     const std::string among = onlyChanged ? " among the options that were changed" : "";
     ImGui::PushTextWrapPos();
     if (filter[0])

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/editing/camera_words.h"
 #include "app/editing/edits.h"
 #include "app/editing/placing.h"
 #include "app/editing/scene_changes.h"
@@ -38,7 +39,7 @@ void change(Studio& studio, const std::string& what, Apply&& apply) {
   apply(scene);
   const std::size_t told = studio.workspace.log().size();
   studio.workspace.edit(what, std::move(scene), continues);
-  if (studio.workspace.log().size() > told) studio.show("Log");
+  if (studio.workspace.log().size() > told) studio.mention("Log");
 }
 
 /// The whole of the last row of the list.
@@ -207,7 +208,10 @@ template <class Thing>
 void editOnly(Studio& studio, Thing Scene::*member) {
   const Thing before = studio.workspace.document.scene().*member;
   const std::string name(Thing::kKeyword);
-  heading(studio, name, Thing::kHelp, {});
+  if constexpr (std::is_same_v<Thing, Camera>)
+    heading(studio, name, cameraSentence(studio.workspace.document.settings()), {});
+  else
+    heading(studio, name, Thing::kHelp, {});
   if (!beginFields(name.c_str())) return;
   const FieldsWithin within(name + ":");
   Thing thing = before;

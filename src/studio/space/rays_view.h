@@ -65,11 +65,14 @@ struct RaysView {
   std::size_t rays = 0;  ///< rays of the pixel that is shown
   int x = -1, y = -1;    ///< x and y of that pixel
   int clickedX = -1, clickedY = -1;
-  int selected = -1;         ///< ray of the pixel; -1: none
-  int hovered = -1;          ///< under the cursor, in space or in the table, in this frame
-  int hoveredBefore = -1;    ///< in the last frame
-  int scrollTo = -1;         ///< ray whose row the table is to show
-  int step = -1;             ///< rays shown in the order of tracing; -1: all
+  int selected = -1;       ///< ray of the pixel; -1: none
+  int hovered = -1;        ///< under the cursor, in space or in the table, in this frame
+  int hoveredBefore = -1;  ///< in the last frame
+  int keyRow = -1;         ///< the row of the tree that the keyboard is at
+  bool focusTree = false;  ///< the keyboard goes to the rows of the tree
+  float between = 0;       ///< height of what stood between the view in space and the tabs in the last frame
+  int scrollTo = -1;       ///< ray whose row the table is to show
+  int step = -1;           ///< rays shown in the order of tracing; -1: all
   std::vector<char> closed;  ///< nodes whose children the table hides
 
   std::vector<VisitedBox> boxes;  ///< boxes of the hierarchies, by the selected ray

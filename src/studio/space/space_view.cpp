@@ -16,6 +16,7 @@
 #include "studio/space/rays_view.h"
 #include "studio/space/space_lines.h"
 #include "studio/studio.h"
+#include "studio/widgets/drag.h"
 #include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 
@@ -294,8 +295,8 @@ void drawLightsBeyond(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 
   }
 }
 
-/// The name of the ray under the cursor and the equation of its light, at the top of the view: so it covers
-/// nothing near the ray.
+/// The name of the ray under the cursor and the equation of its light, at the top of the view, or at its
+/// bottom where the cursor is at the top: so it covers nothing near the ray.
 void drawEquation(const Studio& studio, ImVec2 low, ImVec2 size, int ray) {
   const TracedPixel& pixel = *shownPixel(studio);
   const ImVec2 pad = ImGui::GetStyle().FramePadding;
@@ -304,10 +305,12 @@ void drawEquation(const Studio& studio, ImVec2 low, ImVec2 size, int ray) {
   const std::string text = inLines(std::string(look(pixel.looks(ray)).name) + ": " + said, room) + "\n" +
                            inLines(equationOf(pixel.tree(), pixel.scene(), ray), room);
   const ImVec2 wide = ImGui::CalcTextSize(text.c_str());
-  const ImVec2 at{low.x + pad.x, low.y + pad.y};
+  const float high = wide.y + 2 * pad.y, gap = ImGui::GetTextLineHeight();
+  const bool below = ImGui::GetIO().MousePos.y < low.y + pad.y + high + gap;
+  const ImVec2 at{low.x + pad.x, below ? low.y + size.y - pad.y - high : low.y + pad.y};
   const ImVec4 plate = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(at, {at.x + wide.x + 2 * pad.x, at.y + wide.y + 2 * pad.y},
+  list.AddRectFilled(at, {at.x + wide.x + 2 * pad.x, at.y + high},
                      ImGui::GetColorU32(ImVec4(plate.x, plate.y, plate.z, 0.85f)), pad.x);
   list.AddText({at.x + pad.x, at.y + pad.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
@@ -435,6 +438,7 @@ void drawSwitches(Studio& studio) {
   landmark("triangles");
   ImGui::SetNextItemWidth(characters(20));
   ImGui::SliderFloat("opacity", &view.opacity, 0.1f, 1, "%.2f");
+  escapable(view.opacity);
   ImGui::EndPopup();
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "image/codecs/codec.h"
+#include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 #include "studio/widgets/theme.h"
 
@@ -31,9 +32,10 @@ void FileDialog::open(const std::string& title, Purpose purpose, const std::stri
 void FileDialog::enter(const std::string& folder) {
   problem_.clear();
   overwrite_ = false;
+  folder_ = folder;
+  entries_.clear();
   try {
     entries_ = listFolder(folder, suffixes_);
-    folder_ = folder;
   } catch (const Error& error) {
     problem_ = error.messages().front().what;
   }
@@ -43,10 +45,14 @@ void FileDialog::choose(const std::string& given) {
   std::error_code ignored;
   const bool isNew = purpose_ == Purpose::write && !fs::is_directory(fs::path(folder_) / given, ignored);
   const std::string name = isNew ? withSuffix(given, suffix_) : given;
-  const fs::path path = fs::path(folder_) / name;
+  const fs::path path = (fs::path(folder_) / name).lexically_normal();
   if (fs::is_directory(path, ignored)) {
     if (purpose_ == Purpose::read) name_.clear();
-    return enter(path.lexically_normal().generic_string());
+    return enter(path.generic_string());
+  }
+  if (const std::string problem = folderProblem(path.parent_path().generic_string()); !problem.empty()) {
+    problem_ = problem;
+    return;
   }
   const bool exists = fs::exists(path, ignored);
   if (purpose_ == Purpose::read && !exists) {
@@ -112,10 +118,13 @@ void FileDialog::draw(bool escape, bool entered) {
 
   std::string typed = folder_;
   ImGui::SetNextItemWidth(-1);
-  if (ImGui::InputText("##folder", &typed, ImGuiInputTextFlags_EnterReturnsTrue)) enter(nearestFolder(typed));
+  const bool given = ImGui::InputText("##folder", &typed, ImGuiInputTextFlags_EnterReturnsTrue);
+  landmark("dialog folder");
+  if ((given || ImGui::IsItemDeactivatedAfterEdit()) && typed != folder_) enter(absoluteFolder(typed));
   drawEntries();
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::TextUnformatted(problem_.empty() ? " " : problem_.c_str());
+  ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
+  rowName(problem_.empty() ? " " : problem_);
+  if (!problem_.empty()) landmark("dialog problem " + problem_);
   ImGui::PopStyleColor();
 
   ImGui::SetNextItemWidth(-1);

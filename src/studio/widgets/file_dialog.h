@@ -29,7 +29,7 @@ class FileDialog {
   bool focusName_ = false;  ///< in the next frame: Enter in the name presses the button
   Purpose purpose_ = Purpose::read;
   std::string title_, folder_, name_, problem_;
-  std::string suffix_;  ///< what a name without one gets that is to be written
+  std::string suffix_;   ///< what a name without one gets that is to be written
   std::string focused_;  ///< the row that the keyboard is at
   std::vector<std::string> suffixes_;
   std::vector<FolderEntry> entries_;
