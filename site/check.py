@@ -1,4 +1,5 @@
 """Checks a static site: every link, picture, script and style leads to a file of it, and every anchor to an element.
+An anchor with `=` is none: the studio reads it.
 
 Nothing is loaded from the web: a page would tell others who reads it, and break without them.
 """
@@ -47,7 +48,7 @@ def broken(site: Path) -> tuple:
                     faults.append(f"{file.relative_to(site)}: {target} leads to a folder")
             if not to.is_file() or site not in to.parents:
                 faults.append(f"{file.relative_to(site)}: {target} leads nowhere")
-            elif parts.fragment and to in pages and unquote(parts.fragment) not in pages[to].anchors:
+            elif parts.fragment and "=" not in parts.fragment and to in pages and unquote(parts.fragment) not in pages[to].anchors:
                 faults.append(f"{file.relative_to(site)}: {target}: no such heading")
     return faults, checked
 

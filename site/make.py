@@ -17,8 +17,10 @@ from check import broken
 
 ROOT = Path(__file__).resolve().parent.parent
 STAGE, SITE = ROOT / "build/site-pages", ROOT / "build/site"
+STUDIO = ROOT / "build/web/page"  # what ./dev web makes; the pages of scenes link it
 PAGES_IN = ["docs", "scenes", "examples", "editors"]  # the folders whose pages and pictures are shown
 PICTURES = {".png", ".jpg", ".svg"}
+SCENES = {".ray", ".pov", ".wrl", ".iv", ".out", ".obj"}  # what the studio opens from the page of a file
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 LINK_WITH_LABEL = re.compile(r"\[([^\]]+)\]\(([^)#\s]+\.md)\)")
 TRIPLE = re.compile(r"!\[off\]\((.+)\)\n!\[on\]\((.+)\)\n!\[difference\]\((.+)\)\n")
@@ -68,6 +70,8 @@ class Stage:
         while self.waiting:
             self.extra(self.waiting.pop())
         shutil.copytree(ROOT / "site/files", STAGE / "site")
+        if STUDIO.is_dir():
+            shutil.copytree(STUDIO, STAGE / "studio")
 
     def write(self, path: Path, text: str):
         (STAGE / path).parent.mkdir(parents=True, exist_ok=True)
@@ -153,11 +157,14 @@ class Stage:
 
     @staticmethod
     def source(path: Path, text: str) -> str:
-        shown = ""
-        for name in (f"docs/gallery/{path.stem}.jpg", f"docs/gallery/{path.stem}.png"):
-            if path.parts[0] == "scenes" and (STAGE / name).exists():
-                shown = f"![{path.stem}]({'../' * (len(path.parts) - 1)}{name})\n\n"
-        return f"{shown}[The file]({path.name}) as it is.\n\n```{LANGUAGES.get(path.suffix, 'text')}\n{text.rstrip()}\n```"
+        shown, more, up = "", "", "../" * (len(path.parts) - 1)
+        if path.parts[0] == "scenes":
+            for name in (f"docs/gallery/{path.stem}.jpg", f"docs/gallery/{path.stem}.png"):
+                if (STAGE / name).exists():
+                    shown = f"![{path.stem}]({up}{name})\n\n"
+            if STUDIO.is_dir() and path.suffix in SCENES:
+                more = f" · [Open it in the studio]({up}studio/index.html#scene={path.relative_to('scenes')})"
+        return f"{shown}[The file]({path.name}) as it is{more}\n\n```{LANGUAGES.get(path.suffix, 'text')}\n{text.rstrip()}\n```"
 
     def folder(self, path: Path):
         files = [f for f in sorted((ROOT / path).iterdir()) if f.suffix not in PICTURES and not f.is_dir()]

@@ -3,6 +3,7 @@ import os
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import make
 from check import broken
@@ -27,6 +28,9 @@ class Check(unittest.TestCase):
 
     def test_a_whole_site_has_no_fault(self):
         self.assertEqual(self.faults('<a href="https://example.org/">on the web</a>'), ([], 4))
+
+    def test_a_page_may_get_options_behind_the_hash(self):
+        self.assertEqual(self.faults('<a href="sub/page.html#scene=glass.ray">studio</a>'), ([], 5))
 
     def test_each_fault_is_found(self):
         for fault, words in (
@@ -72,6 +76,15 @@ class Pages(unittest.TestCase):
         self.assertEqual(stage.links("[a](../examples/cpp) [b](../LICENSE) [c](python.md)", file),
                          "[a](../examples/cpp/index.md) [b](../LICENSE.md) [c](python.md)")
         self.assertEqual(len(stage.waiting), 2)
+
+    def test_a_scene_leads_to_the_studio_where_it_was_made(self):
+        link = "[Open it in the studio](../../studio/index.html#scene=tutorial/1-1.ray)"
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(make, "STUDIO", Path(folder)):
+            self.assertIn(link, make.Stage.source(Path("scenes/tutorial/1-1.ray"), "Trace 1"))
+            self.assertNotIn("studio", make.Stage.source(Path("scenes/tutorial/pieces.inc"), "Trace 1"))
+            self.assertNotIn("studio", make.Stage.source(Path("examples/c/a.c"), ""))
+        with mock.patch.object(make, "STUDIO", Path("/none")):
+            self.assertNotIn("studio", make.Stage.source(Path("scenes/glass.ray"), "Trace 1"))
 
     def test_the_menu_has_every_page_of_the_index(self):
         menu = str(make.navigation())
