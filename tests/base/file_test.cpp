@@ -40,6 +40,13 @@ TEST(File, NamesFromAFolderAreTheWayFromIt) {
   EXPECT_EQ(nameFrom("C:/a", "Z:/b/d.png"), "Z:/b/d.png");
 }
 
+TEST(File, ANameThatNoFileMayHaveIsAnError) {
+  const std::string odd = "a\xff\xfe.png";  // not UTF-8
+  if (!mayNameFile(odd)) EXPECT_THROW(besideFile("scene.ray", odd), Error);
+  EXPECT_THROW(readBeside("scene.ray", odd), Error);
+  EXPECT_TRUE(mayNameFile("Gl\xc3\xbc\xc3\xa7k.png"));
+}
+
 TEST(File, SaysWhyItCannot) {
   const std::string here = folder("trace_fail");
   for (const std::string& path : {here, here + "/none/a", std::string("/dev/null/a"), std::string()}) {

@@ -129,11 +129,13 @@ TEST(RayPatch, SettingsAreChangedOrAdded) {
 }
 
 TEST(RayPatch, FilesOfSettingsAreWrittenSoThatTheyAreFound) {
+  const std::string sky =
+      std::filesystem::absolute("/sky/a b.hdr").generic_string();  // with the drive, on Windows
   EXPECT_EQ(after("sphere { }",
-                  [](Scene& s) {
-                    s.choices = {{"environment", "/sky/a b.hdr", {}}};
+                  [&](Scene& s) {
+                    s.choices = {{"environment", sky, {}}};
                   }),
-            "settings { environment = \"/sky/a b.hdr\"; }\nsphere { }");
+            "settings { environment = \"" + sky + "\"; }\nsphere { }");
   EXPECT_EQ(after("settings { backdrop = \"b.png\"; } sphere { }",
                   [](Scene& s) {
                     s.choices = {{"backdrop", "none", {}}};

@@ -19,7 +19,17 @@ std::string readBeside(const std::string& from, const std::string& name) {
   return readFile(path);
 }
 
+bool mayNameFile(const std::string& name) {
+  try {
+    const fs::path path(name);
+    return true;
+  } catch (const fs::filesystem_error&) {
+    return false;
+  }
+}
+
 std::string besideFile(const std::string& from, const std::string& name) {
+  if (!mayNameFile(name)) throw Error(Fault::io, "\"" + name + "\" names no file here: it is not UTF-8");
   const fs::path path(name);
   return path.is_absolute() ? name : (fs::path(from).parent_path() / path).generic_string();
 }

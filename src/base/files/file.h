@@ -50,7 +50,11 @@ bool sameFile(const std::string& a, const std::string& b);
 /// Throws Error(Fault::io).
 std::string makeOwnFolder();
 
-/// `name` as seen from the file `from`: unchanged if absolute, else inside the folder of `from`.
+/// May a file have the name? On Windows names are UTF-8.
+bool mayNameFile(const std::string& name);
+
+/// `name` as seen from the file `from`: unchanged if absolute, else inside the folder of `from`. Throws
+/// Error(Fault::io) if no file may have the name.
 std::string besideFile(const std::string& from, const std::string& name);
 
 /// `path` as a file in `folder` names it, both absolute and without "..": by the way from there, or as it is

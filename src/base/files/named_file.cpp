@@ -57,7 +57,7 @@ std::vector<std::string> spellings(const std::string& name) {
   constexpr std::string_view kScheme = "file://";
   std::vector<std::string> all;
   const auto add = [&](std::string spelling) {
-    if (!spelling.empty() && spelling.find('\0') == spelling.npos &&
+    if (!spelling.empty() && spelling.find('\0') == spelling.npos && mayNameFile(spelling) &&
         std::find(all.begin(), all.end(), spelling) == all.end())
       all.push_back(std::move(spelling));
   };
@@ -171,6 +171,7 @@ NamedFile namedFile(const std::string& from, const std::string& name) {
 }
 
 bool namesFile(const std::string& from, const std::string& name) {
+  if (!mayNameFile(name)) return false;
   std::error_code ignored;
   const std::string path = namedFile(from, name).path;
   return mayRead(path) && fs::is_regular_file(path, ignored);
