@@ -56,6 +56,16 @@ TEST_F(ReadScopeTest, WhatIsAllowedAndDenied) {
   EXPECT_FALSE(may("home/in/b.png")) << "denial is stronger";
 }
 
+TEST_F(ReadScopeTest, WhereLettersOfBothCasesNameOneFileTheyHaveOneRule) {
+  const bool same = fs::exists(folder_ / "home/IN/B.png");
+  const ReadScope command({folder_ / "Textures"}, {folder_ / "home/in"});
+  const ReadScope scope = ReadScope::ofScene(folder_ / "HOME/scene.ray");
+  for (const char* name : {"home/a.png", "Home/a.png", "textures/d.png", "TEXTURES/d.png"})
+    EXPECT_EQ(may(name), same) << name;
+  for (const char* name : {"HOME/In/b.png", "HOME/IN/b.png"}) EXPECT_EQ(may(name), !same) << name;
+  EXPECT_FALSE(may("home/in/b.png")) << "denied as it is spelled";
+}
+
 TEST_F(ReadScopeTest, TheRootIsAllFilesOnEveryDrive) {
   const ReadScope program({"/"});
   const ReadScope scope = ReadScope::ofScene(scene_);

@@ -16,6 +16,7 @@
 #include "base/sanitized.h"
 #include "cli/program.h"
 #include "image/codecs/codec.h"
+#include "scene/quality.h"
 #include "support/folder.h"
 #include "support/paths.h"
 #include "support/shared.h"
@@ -222,7 +223,8 @@ TEST_F(Explain, FindsWhatTheLightImageBrings) {
   EXPECT_NE(error(others, 2).find("which has one, found mlt --chains veach"), std::string::npos);
 }
 
-/// What the schema promises: each ray's radiance follows from its terms.
+/// What the schema promises: each ray's radiance follows from its terms, and so from the radiance of its
+/// rays.
 std::array<double, 3> sum(const json& rays, const json& ray) {
   std::array<double, 3> all{};
   for (std::size_t c = 0; c < 3; ++c) {
@@ -233,8 +235,12 @@ std::array<double, 3> sum(const json& rays, const json& ray) {
       continue;
     }
     for (const json& term : ray["terms"]) {
-      const double value = term["ray"].is_null() ? term["value"][c].get<double>()
-                                                 : sum(rays, rays[term["ray"].get<std::size_t>()])[c];
+      const auto radianceOf = [&](const json& next) {
+        return next["radiance"][c].is_number() ? next["radiance"][c].get<double>() : sum(rays, next)[c];
+      };
+      const json& at = term["ray"];
+      const double value =
+          at.is_null() ? term["value"][c].get<double>() : radianceOf(rays[at.get<std::size_t>()]);
       all[c] += term["factor"][c].get<double>() * value;
     }
     all[c] *= ray["through"][c].get<double>();
@@ -330,6 +336,11 @@ TEST_F(Explain, EveryFormOfEverySceneAndIntegratorIsThereAndAgrees) {
   std::size_t shown = 0;
   for (std::size_t at = 0; at < files.size(); at += kStride) {
     const std::string& file = files[at];
+    Messages messages;
+    const std::string bytes = readFile(file);
+    const SceneAtMoment read = readSceneAtItsMoment(file, bytes, {}, messages);
+    SceneAt later;
+    if (read.changesWithTime) later = [&](Real moment) { return readScene(file, bytes, messages, moment); };
     std::list<Session> sessions;  // the first is kept: what is the same is shared with it
     for (const IntegratorRow& row : integrators()) {
       if (row.traits.has(Trait::byChains))
@@ -348,12 +359,10 @@ TEST_F(Explain, EveryFormOfEverySceneAndIntegratorIsThereAndAgrees) {
                                           {"moments", "2"},
                                           {"medium-depth", "3"}})
         choices.push_back({std::string(option), std::string(value), {}});
+      Settings settings = settingsFor(read.scene, {read.scene.choices, choices});
+      settings.caustics = std::min(settings.caustics, 500);
       Session& session = sessions.emplace_back();
-      session.open(file, choices);
-      if (session.settings().caustics > 0) {
-        choices.push_back({"caustics", "500", {}});
-        session.open(file, choices);
-      }
+      session.open(read.scene, settings, later);
       session.build(sessions.size() > 1 ? &sessions.front() : nullptr);
       session.renderPicture();
       const std::string name = std::filesystem::path(file).stem().string();

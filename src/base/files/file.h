@@ -46,6 +46,10 @@ void checkWritable(const std::string& path);
 /// path.
 bool sameFile(const std::string& a, const std::string& b);
 
+/// The name as all its spellings in letters of either case are compared: on Windows in capitals, since they
+/// name one file there; elsewhere as it is.
+std::string comparedName(const std::string& path);
+
 /// A new folder among the system's temporary files, which nobody could guess and nobody else may enter.
 /// Throws Error(Fault::io).
 std::string makeOwnFolder();

@@ -5,6 +5,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/files/file.h"
+
 namespace trace {
 namespace {
 
@@ -28,7 +30,8 @@ void setRules(Rules rules) {
   }
 }
 
-/// Absolute and without links; what does not exist is kept as it is named. "" if it cannot be told.
+/// Absolute and without links, in letters that can be compared; what does not exist is kept as it is named.
+/// "" if it cannot be told.
 std::string realPath(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::absolute(path.empty() ? "." : path, error);
@@ -36,7 +39,7 @@ std::string realPath(const fs::path& path) {
   fs::path real = fs::weakly_canonical(whole, error);
   if (error) return {};
   if (!real.has_filename() && real.has_parent_path() && real != real.root_path()) real = real.parent_path();
-  return real.generic_string();
+  return comparedName(real.generic_string());
 }
 
 constexpr const char* kEverywhere = "/";  // on all drives of Windows

@@ -112,4 +112,10 @@ std::string readStart(const std::string& path, std::size_t most) {
   return bytes;
 }
 
+std::string comparedName(const std::string& path) {
+  std::wstring name = os::wide(path);
+  ::CharUpperBuffW(name.data(), static_cast<DWORD>(name.size()));
+  return os::narrow(name);
+}
+
 }  // namespace trace
