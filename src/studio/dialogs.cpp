@@ -97,7 +97,7 @@ void drawLeaving(Studio& studio) {
   if (ImGui::Button("Save as...", size)) saveSceneAsAnd(studio, close());
   landmark("button Save as");
   ImGui::SameLine();
-  if (ImGui::Button("Discard it", size)) close()();
+  if (ImGui::Button("Discard", size)) close()();
   ImGui::SameLine();
   if (ImGui::Button("Cancel", size) || studio.pressed(KeyPress::kEscape)) close();
   ImGui::EndPopup();

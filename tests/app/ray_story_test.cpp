@@ -59,6 +59,25 @@ TEST(RayStory, HasTheRaysTheTreeAndTheSum) {
   EXPECT_EQ(all.height, none.height);
 }
 
+TEST(RayStory, AWholeDrawingHasEveryRowOfTheTree) {
+  Scene scene = mirrorAndBall();
+  for (int i = 0; i < 40; ++i)
+    scene.lights.push_back({PointLight{.position = {0.01 * i, 1, 6}, .color = Color(0.1)}, {}});
+  const auto session = sessionOf(scene, {});
+  const TracedPixel pixel = tracePixel(session, 20, 20, 0);
+  const RayStory story(pixel, session->scene().camera);
+  ASSERT_GT(story.rays(), 40);
+  EXPECT_EQ(wordsIn(story.after(story.rays()), "camera: mirror"), 0u) << "a film shows the latest rows";
+  const Drawing whole = story.whole();
+  EXPECT_EQ(wordsIn(whole, "camera: mirror"), 1u);
+  EXPECT_EQ(wordsIn(whole, "shadow-"), wordsIn(whole, "shadow-lit") + wordsIn(whole, "shadow-blocked"));
+  EXPECT_GE(wordsIn(whole, "shadow-"), 40u);
+  for (const Drawn& thing : whole.things)
+    if (const auto* words = std::get_if<DrawnWords>(&thing)) {
+      EXPECT_LT(words->at.y, whole.height) << words->words;
+    }
+}
+
 TEST(RayStory, ShowsColoursLightsArrowsAndHowRaysEnded) {
   Scene scene = mirrorAndBall();
   Phong blue, glass;

@@ -20,7 +20,9 @@ namespace trace {
 namespace {
 
 constexpr double kHigh = 600, kSheetMargin = 16, kRowHigh = 24, kLetters = 17;
-constexpr double kAdds = 74, kEnded = 190, kTree = 620;  // widths of two columns, and of the whole tree
+constexpr double kAdds = 74, kEnded = 190, kTree = 620;    // widths of two columns, and of the whole tree
+constexpr int kRows = static_cast<int>(kHigh / kRowHigh);  // rows of the tree next to the view
+constexpr int kMostRows = 400;                             // rows of the tree in a drawing of all rays
 
 /// An SVG's letters may be a little wider than ours.
 double wideOf(const std::string& words) { return 1.1 * lettersWidth(words, kLetters); }
@@ -89,18 +91,25 @@ RayStory::RayStory(const TracedPixel& pixel, const Camera& view) : pixel_(pixel)
                              {kSheetMargin, kSheetMargin + 1.5 * kRowHigh}, wide_, kHigh);
 }
 
-Drawing RayStory::after(int rays) const {
-  rays = std::clamp(rays, 0, this->rays());
+Drawing RayStory::after(int rays) const { return drawn(std::clamp(rays, 0, this->rays()), kRows); }
+
+Drawing RayStory::whole() const { return drawn(rays(), std::clamp(rays(), kRows, kMostRows)); }
+
+Drawing RayStory::drawn(int rays, int rows) const {
   Drawing drawing;
   drawing.width = static_cast<int>(wide_ + kTree + 3 * kSheetMargin);
-  drawing.height = static_cast<int>(kHigh + 2 * kSheetMargin + 5 * kRowHigh);
+  drawing.height =
+      static_cast<int>(std::max(kHigh + 5 * kRowHigh, (rows + 2.5) * kRowHigh) + 2 * kSheetMargin);
   drawing.things.push_back(wordsAt({kSheetMargin, kSheetMargin}, "pixel " + std::to_string(pixel_.x) + "," +
                                                                      std::to_string(pixel_.y) + ", " +
                                                                      std::to_string(rays) + " of " +
                                                                      std::to_string(this->rays()) + " rays"));
+  const bool beside = rows > kRows;  // the tree is longer than the view, and the sum is beside it
+  const double end =
+      addSum(drawing, rays, beside ? wide_ + kSheetMargin : drawing.width - kSheetMargin) + kSheetMargin;
+  if (beside) drawing.height = std::max(drawing.height, static_cast<int>(end));
   addSpace(drawing, rays);
-  addTree(drawing, rays);
-  addSum(drawing, rays);
+  addTree(drawing, rays, rows);
   return drawing;
 }
 
@@ -235,14 +244,18 @@ void RayStory::addCamera(Drawing& drawing, const Panel& panel) const {
     }
 }
 
-void RayStory::addTree(Drawing& drawing, int rays) const {
+void RayStory::addTree(Drawing& drawing, int rays, int rows) const {
   constexpr double kIndent = 14;
   constexpr int kMostLevels = 10;
   const double left = wide_ + 2 * kSheetMargin, top = kSheetMargin + 1.5 * kRowHigh;
   const double adds = left + kTree - kAdds - kEnded, ended = left + kTree - kEnded;
-  const int rows = static_cast<int>(kHigh / kRowHigh), last = std::min(rays, this->rays());
-  const int first = std::max(0, last - rows);  // the latest
-  drawing.things.push_back(wordsAt({left, kSheetMargin}, "ray: what it met"));
+  const bool all = rays == this->rays() && rows > kRows;
+  const int first = all ? 0 : std::max(0, rays - rows);  // the latest
+  const int last = std::min(rays, first + rows);
+  if (last < rays)
+    drawing.things.push_back(
+        wordsAt({left, top + kRowHigh * rows}, "and " + std::to_string(rays - last) + " more"));
+  drawing.things.push_back(wordsAt({left, kSheetMargin}, "ray: what it hit"));
   drawing.things.push_back(wordsAt({adds, kSheetMargin}, "adds"));
   drawing.things.push_back(wordsAt({ended, kSheetMargin}, "ended"));
   for (int i = first; i < last; ++i) {
@@ -262,11 +275,10 @@ void RayStory::addTree(Drawing& drawing, int rays) const {
   }
 }
 
-void RayStory::addSum(Drawing& drawing, int rays) const {
+double RayStory::addSum(Drawing& drawing, int rays, double most) const {
   const Session& session = *pixel_.session;
   const bool all = rays >= this->rays();
   double x = kSheetMargin, y = kSheetMargin + 2 * kRowHigh + kHigh;
-  const double most = drawing.width - kSheetMargin;
   const std::string last = rays < 1 ? "" : stepOf(pixel_.tree(), pixel_.scene(), rays - 1);
   const std::string said = all ? pixel_.why.sentence : last;
   drawing.things.push_back(wordsAt({x, y}, cut(said, most - x)));
@@ -284,6 +296,7 @@ void RayStory::addSum(Drawing& drawing, int rays) const {
   for (std::size_t i = 0; i < sum.size(); ++i)
     if (all || sum[i].last < rays)
       add(sum[i].color, sum[i].name + " " + channels(sum[i].color) + (i + 1 < sum.size() ? "  +" : ""));
+  return y + kRowHigh;
 }
 
 std::string filmOf(const RayStory& story) {

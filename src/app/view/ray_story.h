@@ -23,13 +23,17 @@ class RayStory {
   /// After so many rays, in the order of tracing; with the sentence about the last, or about the pixel once
   /// all are there.
   Drawing after(int rays) const;
+  /// After all rays, with every row of the tree: as high as it needs.
+  Drawing whole() const;
 
  private:
+  Drawing drawn(int rays, int rows) const;
   void addSpace(Drawing& drawing, int rays) const;
   void addLights(Drawing& drawing, const Panel& panel) const;
   void addCamera(Drawing& drawing, const Panel& panel) const;
-  void addTree(Drawing& drawing, int rays) const;
-  void addSum(Drawing& drawing, int rays) const;
+  void addTree(Drawing& drawing, int rays, int rows) const;
+  /// The sentence, and the sum in lines that end at `most`; the lower end of the last of them.
+  double addSum(Drawing& drawing, int rays, double most) const;
 
   TracedPixel pixel_;
   double wide_ = 0;  // width of the view, in pixels

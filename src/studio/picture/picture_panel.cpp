@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "app/view/picture_views.h"
+#include "app/view/screen/overlays.h"
 #include "image/comparison/false_color.h"
 #include "math/elementary.h"
 #include "studio/panels.h"
@@ -199,9 +200,32 @@ void numbersInPixels(const Studio& studio, const FrameArea& frame, ImVec2 low, I
   list.PopClipRect();
 }
 
+constexpr int kSteps = 5, kBands = 30;  // numbers and bands of a scale
+
+constexpr float kNowhere = 1e9f;
+
+/// The room that scales take.
+float uprightScale() {
+  return ImGui::GetTextLineHeight() + 4 * ImGui::GetStyle().FramePadding.x +
+         ImGui::CalcTextSize("0.00000").x + 8;
+}
+float flatScale(float across) {
+  const bool fits = across > (kSteps + 3) * ImGui::CalcTextSize("0.00000").x;
+  return fits ? 2.5f * ImGui::GetTextLineHeight() + 8 : kNowhere;
+}
+
+ImU32 bandColour(Color (*colourAt)(double), int band) {
+  const Color c = colourAt(band / double{kBands});
+  return ImGui::GetColorU32(
+      ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1));
+}
+
+std::string scaleNumber(const ColourScale& scale, int step) {
+  return ColourScale{scale.white, scale.logarithmic}.text(scale.valueAt(step / double{kSteps}));
+}
+
 /// The scale of false colours, which `colourAt` gives for places from 0 to 1, at the right edge.
 void drawScale(ImVec2 low, ImVec2 high, const ColourScale& scale, Color (*colourAt)(double)) {
-  constexpr int kSteps = 5, kBands = 30;  // steps with a number, and bands of one course of colour
   const float line = ImGui::GetTextLineHeight(), bar = line, pad = ImGui::GetStyle().FramePadding.x;
   const float wide = bar + 3 * pad + ImGui::CalcTextSize("0.00000").x,
               top = std::max(low.y + 2.5f * line, (low.y + high.y) / 2 - 6 * line),
@@ -211,25 +235,47 @@ void drawScale(ImVec2 low, ImVec2 high, const ColourScale& scale, Color (*colour
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float head = scale.unit.empty() ? line : 2 * line;
   list.AddRectFilled({at.x - pad, top - head}, {high.x - 8, bottom + line}, IM_COL32(0, 0, 0, 170), 4);
-  const auto colour = [&](int band) {
-    const Color c = colourAt(band / double{kBands});
-    return ImGui::GetColorU32(
-        ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1));
-  };
   const auto height = [&](int part, int parts) {
     return bottom - (bottom - top) * static_cast<float>(part) / static_cast<float>(parts);
   };
   for (int band = 0; band < kBands; ++band) {
-    const ImU32 below = colour(band), above = colour(band + 1);
+    const ImU32 below = bandColour(colourAt, band), above = bandColour(colourAt, band + 1);
     list.AddRectFilledMultiColor({at.x, height(band + 1, kBands)}, {at.x + bar, height(band, kBands)}, above,
                                  above, below, below);
   }
   for (int step = 0; step <= kSteps; ++step)
-    list.AddText(
-        {at.x + bar + pad, height(step, kSteps) - line / 2}, IM_COL32_WHITE,
-        ColourScale{scale.white, scale.logarithmic}.text(scale.valueAt(step / double{kSteps})).c_str());
+    list.AddText({at.x + bar + pad, height(step, kSteps) - line / 2}, IM_COL32_WHITE,
+                 scaleNumber(scale, step).c_str());
   if (!scale.unit.empty())
     list.AddText({at.x, top - 1.75f * line}, IM_COL32_WHITE, std::string(scale.unit).c_str());
+}
+
+/// A scale from left to right, below a picture that begins and ends there.
+void drawFlatScale(float left, float right, float top, const ColourScale& scale, Color (*colourAt)(double)) {
+  const float line = ImGui::GetTextLineHeight(), pad = ImGui::GetStyle().FramePadding.x;
+  const std::string unit(scale.unit);
+  const float head = unit.empty() ? 0 : ImGui::CalcTextSize(unit.c_str()).x + 2 * pad;
+  const float number = ImGui::CalcTextSize("0.00000").x,
+              wide = std::min(right - left - head - number - 2 * pad, 12 * number);
+  if (wide < kSteps * number) return;
+  const ImVec2 at{std::round((left + right - wide + head) / 2), top + 8};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({at.x - head - number / 2 - pad, at.y - 4},
+                     {at.x + wide + number / 2 + pad, at.y + 2.5f * line}, IM_COL32(0, 0, 0, 170), 4);
+  const auto across = [&](int part, int parts) {
+    return at.x + wide * static_cast<float>(part) / static_cast<float>(parts);
+  };
+  for (int band = 0; band < kBands; ++band) {
+    const ImU32 before = bandColour(colourAt, band), after = bandColour(colourAt, band + 1);
+    list.AddRectFilledMultiColor({across(band, kBands), at.y}, {across(band + 1, kBands), at.y + line},
+                                 before, after, after, before);
+  }
+  for (int step = 0; step <= kSteps; ++step) {
+    const std::string text = scaleNumber(scale, step);
+    list.AddText({across(step, kSteps) - ImGui::CalcTextSize(text.c_str()).x / 2, at.y + 1.25f * line},
+                 IM_COL32_WHITE, text.c_str());
+  }
+  if (!unit.empty()) list.AddText({at.x - head, at.y}, IM_COL32_WHITE, unit.c_str());
 }
 
 /// The levels of the picture, in the lower right corner: heights are logarithms of the counts.
@@ -322,7 +368,16 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   const bool refused = reference && !comparable && together && other.caption.empty();
   const View mode = reference && other.caption.empty() && !refused ? view.view : View::picture;
   const bool two = mode == View::sideBySide;
-  const ImVec2 part{two ? std::max(1.0f, (area.x - kGap) / 2) : area.x, area.y};
+  const bool heat = other.texture == &view.planeTexture && view.planeMade.scale.white > 0;
+  const bool scaled = heat || mode == View::falseColour;
+  ImVec2 part{two ? std::max(1.0f, (area.x - kGap) / 2) : area.x, area.y};
+  ScalePlace scalePlace = ScalePlace::beside;
+  if (scaled && view.fit) {  // a picture that is enlarged has no place of its own for it
+    const FrameArea whole = frameOf(view, canvas, part, width, height);
+    scalePlace =
+        placeScale({area.x, area.y}, {whole.size.x, whole.size.y}, uprightScale(), flatScale(area.x));
+    if (scalePlace == ScalePlace::over) part.x = std::max(area.x / 2, area.x - uprightScale());
+  }
   const FrameArea frame = frameOf(view, canvas, part, width, height);
   const FrameArea second{{frame.low.x + part.x + kGap, frame.low.y}, frame.size};
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -348,7 +403,8 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     line = std::round(left + (right - left) * view.swipe);
     clipped(canvas, {line, end.y}, frame, view.pictureTexture);
     clipped({line, canvas.y}, end, frame, view.referenceTexture);
-    list.AddLine({line, canvas.y}, {line, end.y}, ImGui::GetColorU32(studio.palette().accent), 2);
+    list.AddLine({line, canvas.y}, {line, end.y}, ImGui::GetColorU32(studio.palette().accent),
+                 2 * studio.theme.scale);
     if (ImGui::IsItemActive() && ImGui::IsMouseDragging(0) && right > left)
       view.swipe = std::clamp((ImGui::GetIO().MousePos.x - left) / (right - left), 0.0f, 1.0f);
   }
@@ -388,11 +444,15 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
       if (mode == View::swipe) numbersInPixels(studio, frame, {line, clear}, end, view.reference);
     }
   }
-  if (mode == View::falseColour)
-    drawScale({canvas.x, clear}, end, {1 / static_cast<double>(view.magnify)}, falseColour);
-  if (other.texture == &view.planeTexture && view.planeMade.scale.white > 0) {
-    numbersInPixels(studio, frame, {canvas.x, clear}, end, view.planeMade.values, 1);
-    drawScale({canvas.x, clear}, end, view.planeMade.scale, heatColor);
+  if (heat) numbersInPixels(studio, frame, {canvas.x, clear}, end, view.planeMade.values, 1);
+  if (scaled) {
+    const ColourScale scale =
+        heat ? view.planeMade.scale : ColourScale{1 / static_cast<double>(view.magnify)};
+    const auto colours = heat ? heatColor : falseColour;
+    if (scalePlace == ScalePlace::below)
+      drawFlatScale(frame.low.x, frame.low.x + frame.size.x, frame.low.y + frame.size.y, scale, colours);
+    else
+      drawScale({canvas.x, clear}, end, scale, colours);
   }
   if (view.histogramShown && comparesPictures(studio) && !studio.stage) drawHistogram(studio, canvas, end);
 
@@ -420,8 +480,10 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
     list.PushClipRect(canvas, end, true);
     const ImVec2 low{middle.x - ring / 2, middle.y - ring / 2},
         high{middle.x + ring / 2, middle.y + ring / 2};
-    list.AddRect({low.x - 1, low.y - 1}, {high.x + 1, high.y + 1}, IM_COL32(0, 0, 0, 200), 0, 0, 3);
-    list.AddRect(low, high, IM_COL32(255, 210, 60, 255), 0, 0, 1.5f);
+    const float thick = studio.theme.scale;
+    list.AddRect({low.x - thick, low.y - thick}, {high.x + thick, high.y + thick}, IM_COL32(0, 0, 0, 200), 0,
+                 0, 3 * thick);
+    list.AddRect(low, high, IM_COL32(255, 210, 60, 255), 0, 0, 1.5f * thick);
     list.PopClipRect();
   }
   return within;

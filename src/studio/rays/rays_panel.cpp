@@ -51,7 +51,10 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
   ImGui::SameLine();
   if (ImGui::Button(view.playsAt >= 0 ? "Stop" : "Play")) playRays(studio);
   landmark("play");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("the rays one after the other, in the order of tracing (P)");
+  if (ImGui::IsItemHovered() && view.playsAt < 0) {  // while they appear it would hide their number
+    besideItem();
+    ImGui::SetTooltip("the rays one after the other, in the order of tracing (P)");
+  }
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   if (ImGui::ArrowButton("back", ImGuiDir_Left)) stepRays(studio, -1);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("one ray back in the order of tracing");
@@ -175,7 +178,7 @@ void saveStory(Studio& studio, const std::string& file) {
     const RayStory story(pixel, camera);
     const std::string kind = std::filesystem::path(file).extension().string();
     if (kind == ".apng") return writeFile(file, filmOf(story));
-    const Drawing drawing = story.after(story.rays());
+    const Drawing drawing = story.whole();
     if (kind == ".png") return writePicture(file, toPicture(drawing), Rounding::nearest);
     writeFile(file, toSvg(drawing));
   });

@@ -48,7 +48,7 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
   if (!ImGui::BeginTable(ends ? "tree" : "narrow tree", ends ? 4 : 3, kRayTable, {0, -below})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
   ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, ends ? 0.44f : 0.6f);
-  ImGui::TableSetupColumn("met", ImGuiTableColumnFlags_WidthStretch, ends ? 0.24f : 0.4f);
+  ImGui::TableSetupColumn("hit", ImGuiTableColumnFlags_WidthStretch, ends ? 0.24f : 0.4f);
   ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(ends ? 9 : 7));
   if (ends) ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.32f);
   columnHeads({"its kind and its secondary rays", "the object, light or medium that it came to",

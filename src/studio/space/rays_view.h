@@ -13,6 +13,7 @@
 #include "app/view/gizmo.h"
 #include "app/view/orbit_camera.h"
 #include "app/view/scene_model.h"
+#include "app/view/screen/overlays.h"
 #include "app/view/way_pyramid.h"
 #include "image/development/development.h"
 #include "render/rays/visited_boxes.h"
@@ -127,6 +128,7 @@ struct RaysView {
   bool frameDue = false;                   ///< the rays that are shown next are
   bool pictureShown = true, hitNormalsShown = true, pinnedShown = true, hierarchyShown = true;
   std::array<bool, kRayLooks.size()> lookHidden{};
+  ViewCorner legendCorner = ViewCorner::lowerLeft;
 
   bool inStep(int node) const { return step < 0 || node < step; }
 };

@@ -33,8 +33,18 @@ void main() {
   gl_Position = matrix * vec4(position, 1);
 })";
 
+// Part of a level of 255, so that slow changes of shade do not end in bands; as app/view/screen/dither.h has
+// it.
+constexpr const char* kDither = R"(
+uniform float ditherStep;
+float dither() {
+  vec2 p = gl_FragCoord.xy + 5.588238 * ditherStep;
+  return (fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715)))) - 0.5) / 255.0;
+}
+)";
+
 // Lit from the eye and a little from above, or by the scene's lights; on both sides.
-const std::string kSurfaceFragment = std::string() + SeeThrough::kDeclarations + R"(
+const std::string kSurfaceFragment = std::string() + SeeThrough::kDeclarations + kDither + R"(
 in vec3 place, facing;
 uniform vec3 eye, inside;
 uniform bool wall;
@@ -55,7 +65,7 @@ void main() {
   for (int i = 0; i < lamps; ++i)
     light += lampColours[i] * max(0.0, dot(n, normalize(lampPlaces[i].xyz - lampPlaces[i].w * place)));
   float edge = pow(1.0 - dot(n, v), 3.0);
-  result = vec4(colour.rgb * min(light, vec3(1)), mix(colour.a, 1.0, colour.a < 1.0 ? 0.5 * edge : 0.0));
+  result = vec4(colour.rgb * min(light, vec3(1)) + dither(), mix(colour.a, 1.0, colour.a < 1.0 ? 0.5 * edge : 0.0));
 })";
 
 // A line is a quad that faces the eye: both ends come with every corner.
@@ -114,9 +124,13 @@ void main() { result = vec4(texture(picture, at).rgb, opacity); })";
 constexpr const char* kCopyVertex =
     R"(void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0, 1); })";
 
-constexpr const char* kCopyFragment = R"(uniform sampler2D picture;
+const std::string kCopyFragment = std::string() + kDither + R"(uniform sampler2D picture;
+uniform bool rounded;  // to bytes
 out vec4 result;
-void main() { result = vec4(texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb, 1); })";
+void main() {
+  vec3 colour = texelFetch(picture, ivec2(gl_FragCoord.xy), 0).rgb;
+  result = vec4(rounded ? colour + dither() : colour, 1);
+})";
 
 void attribute(unsigned index, int count, std::size_t stride, std::size_t offset) {
   glEnableVertexAttribArray(index);
@@ -178,7 +192,7 @@ struct SceneDrawer::State {
   void drawStep(const SpaceDrawing& drawing);
   void begin(const SpaceDrawing& drawing, double x, double y);
   void overlay(const SpaceDrawing& drawing);
-  void copyOver(unsigned frame, unsigned picture) const;
+  void copyOver(unsigned frame, unsigned picture, bool rounded) const;
   static void leave();
   void surfaces(const std::vector<DrawSurface>& parts);
   void wires(const std::vector<DrawSurface>& parts);
@@ -199,7 +213,7 @@ SceneDrawer::SceneDrawer() : state_(std::make_unique<State>()) {
   s.surface = linkProgram(kSurfaceVertex, kSurfaceFragment.c_str());
   s.line = linkProgram(kLineVertex, kLineFragment);
   s.pictures = linkProgram(kPictureVertex, kPictureFragment);
-  s.copy = linkProgram(kCopyVertex, kCopyFragment);
+  s.copy = linkProgram(kCopyVertex, kCopyFragment.c_str());
   for (unsigned* array : {&s.surfaceArray, &s.lineArray, &s.pictureArray, &s.nothing})
     glGenVertexArrays(1, array);
   for (unsigned* buffer :
@@ -259,9 +273,9 @@ bool SceneDrawer::coarse() const { return state_->shown && state_->steps < kPlac
 ImTextureID SceneDrawer::show(SpaceDrawing drawing, bool rests) {
   State& s = *state_;
   if (s.shown != drawing) {
+    s.steps = 0;
     s.drawPlain(drawing);
     s.shown = std::move(drawing);
-    s.steps = 0;
     ++s.drawn;
   } else if (rests && coarse()) {
     s.drawStep(*s.shown);
@@ -326,21 +340,23 @@ void SceneDrawer::State::drawStep(const SpaceDrawing& d) {
   ++steps;
   glBlendColor(0, 0, 0, 1.0f / static_cast<float>(steps));
   glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
-  copyOver(smooth, texture);
+  copyOver(smooth, texture, false);
   if (steps == kPlaces.size()) {  // as bytes it is shown faster
     glDisable(GL_BLEND);
-    copyOver(plain, mean);
+    copyOver(plain, mean, true);
   }
   leave();
 }
 
-void SceneDrawer::State::copyOver(unsigned frame, unsigned picture) const {
+void SceneDrawer::State::copyOver(unsigned frame, unsigned picture, bool rounded) const {
   glBindFramebuffer(GL_FRAMEBUFFER, frame);
   glDisable(GL_DEPTH_TEST);
   glUseProgram(copy);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, picture);
   glUniform1i(glGetUniformLocation(copy, "picture"), 0);
+  glUniform1i(glGetUniformLocation(copy, "rounded"), rounded);
+  glUniform1f(glGetUniformLocation(copy, "ditherStep"), 0);
   glBindVertexArray(nothing);
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -365,6 +381,7 @@ void SceneDrawer::State::draw(const std::vector<DrawSurface>& parts, bool asWire
   place("eye", eye);
   place("inside", inside);
   glUniform1i(glGetUniformLocation(surface, "flatly"), flat);
+  glUniform1f(glGetUniformLocation(surface, "ditherStep"), static_cast<float>(steps % kPlaces.size()));
   shineOn();
   glBindVertexArray(surfaceArray);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangleBuffer);

@@ -9,6 +9,7 @@
 #include "app/explain/pixel_why.h"
 #include "app/view/magnifier.h"
 #include "app/view/room.h"
+#include "app/view/screen/overlays.h"
 #include "math/elementary.h"
 #include "scene/picture_size.h"
 #include "studio/scene/selection.h"
@@ -442,8 +443,21 @@ void drawSwitches(Studio& studio) {
   ImGui::EndPopup();
 }
 
-/// The classes that occur, each a switch, over the lower left corner; without names where they do not fit.
-void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
+/// The rays that are drawn, in pixels from the view's upper left corner.
+std::vector<ViewLine> shownLines(const Studio& studio, const Matrix4& matrix, ImVec2 size) {
+  const RaysView& view = studio.rays;
+  std::vector<ViewLine> lines;
+  for (const RaySegment& segment : shownPixel(studio)->segments) {
+    if (view.lookHidden[static_cast<std::size_t>(segment.looks)] || !view.inStep(segment.node)) continue;
+    if (const auto seen = onScreen(view, matrix, {0, 0}, size, segment))
+      lines.push_back({seen->from, seen->to});
+  }
+  return lines;
+}
+
+/// The classes that occur, each a switch, over a corner where they hide little; without names where they do
+/// not fit.
+void drawLegend(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size) {
   RaysView& view = studio.rays;
   const TracedPixel* pixel = shownPixel(studio);
   if (!pixel) return;
@@ -465,20 +479,25 @@ void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
   for (std::size_t i = 0; i < count.size(); ++i)
     if (count[i] > 0) widest = std::max(widest, ImGui::CalcTextSize(textOf(i).c_str()).x);
   const float column = widest + side + 3 * pad;
-  const ImVec2 first{low.x + pad, low.y + size.y - rows * line - pad};
+  const Vec2 all{size.x, size.y}, wide{columns * column + 2 * pad, rows * line + 2 * pad};
+  if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2))
+    view.legendCorner = quietCorner(all, wide, shownLines(studio, matrix, size), view.legendCorner);
+  const Vec2 corner = placeIn(view.legendCorner, all, wide);
+  const ImVec2 first{low.x + static_cast<float>(corner.x) + pad, low.y + static_cast<float>(corner.y) + pad};
   const ImVec4 plate = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
-  ImGui::GetWindowDrawList()->AddRectFilled({low.x + pad / 2, first.y - pad},
-                                            {first.x + columns * column + pad / 2, low.y + size.y - pad / 2},
-                                            ImGui::GetColorU32(ImVec4(plate.x, plate.y, plate.z, 0.8f)), pad);
+  ImGui::GetWindowDrawList()->AddRectFilled(
+      {first.x - pad / 2, first.y - pad / 2},
+      {first.x + columns * column + pad / 2, first.y + rows * line + pad / 2},
+      ImGui::GetColorU32(ImVec4(plate.x, plate.y, plate.z, 0.8f)), pad);
   ImVec2 at = first;
   for (std::size_t i = 0; i < count.size(); ++i) {
     if (count[i] == 0) continue;
     const std::string text = textOf(i);
-    const ImVec2 wide = ImGui::CalcTextSize(text.c_str());
+    const ImVec2 letters = ImGui::CalcTextSize(text.c_str());
     const Color c = colourOf(static_cast<RayLooks>(i), studio.theme.light);
     ImGui::SetCursorScreenPos(at);
     ImGui::PushID(static_cast<int>(i));
-    if (ImGui::InvisibleButton("class", {wide.x + side + 3 * pad, line}))
+    if (ImGui::InvisibleButton("class", {letters.x + side + 3 * pad, line}))
       view.lookHidden[i] = !view.lookHidden[i];
     ImGui::PopID();
     landmark("legend " + std::string(kRayLooks[i].name));
@@ -491,7 +510,7 @@ void drawLegend(Studio& studio, ImVec2 low, ImVec2 size) {
     const ImVec2 square{at.x + pad, at.y + (line - side) / 2};
     if (on) list.AddRectFilled(square, {square.x + side, square.y + side}, tint, 2);
     list.AddRect(square, {square.x + side, square.y + side}, tint, 2);
-    list.AddText({square.x + side + pad, at.y + (line - wide.y) / 2},
+    list.AddText({square.x + side + pad, at.y + (line - letters.y) / 2},
                  ImGui::GetColorU32(on ? ImGuiCol_Text : ImGuiCol_TextDisabled), text.c_str());
     at.y += line;
     if (at.y > first.y + (rows - 0.5f) * line) at = {at.x + column, first.y};
@@ -596,7 +615,7 @@ void drawSpace(Studio& studio) {
   }
   drawHovered(studio, matrix, low, size, view.hovered >= 0 ? view.hovered : view.hoveredBefore);
   drawLightsBeyond(studio, matrix, low, size);
-  drawLegend(studio, low, size);
+  drawLegend(studio, matrix, low, size);
   if (hovered && view.hovered >= 0) drawEquation(studio, low, size, view.hovered);
 }
 
