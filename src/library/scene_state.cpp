@@ -170,9 +170,9 @@ std::pair<PartCategory, std::uint64_t> SceneState::newPartAt(const trace::Source
 }
 
 void SceneState::warn(PartCategory category, std::uint64_t id, std::span<const trace::Message> messages,
-                      std::string_view text, int line) {
+                      std::string_view around, int line) {
   for (const trace::Message& message : messages)
-    partWarnings.push_back({category, id, message, fieldsAround(text, message.place, line)});
+    partWarnings.push_back({category, id, message, fieldsAround(around, message.place, line)});
 }
 
 void SceneState::dropWarnings(PartCategory category, std::uint64_t id, const Fields& fields) {

@@ -11,6 +11,7 @@
 #include "base/files/file.h"
 #include "image/codecs/codec.h"
 #include "support/folder.h"
+#include "support/opened.h"
 #include "support/paths.h"
 #include "support/random.h"
 #include "support/shared.h"
@@ -35,13 +36,14 @@ TEST(Examples, LoadWithoutAWarningAndRenderTheSameForAnyNumberOfThreads) {
   for (const std::string& scene : scenes) {
     Session asSaid;
     asSaid.open(scene, {});
+    EXPECT_TRUE(asSaid.messages().all().empty()) << toString(asSaid.messages().all().front());
     const std::vector<Choice> small = smallChoices(asSaid.settings(), 28, 16);  // waves of all lengths
     std::unique_ptr<Session> before;
     const auto rendered = [&](const char* threads) {
       std::vector<Choice> choices = small;
       choices.push_back({"threads", threads, {}});
       auto session = std::make_unique<Session>();
-      session->open(scene, choices);
+      openAgain(*session, asSaid, choices);
       session->build(before.get());  // what is not of the threads is built once
       EXPECT_TRUE(session->messages().all().empty()) << toString(session->messages().all().front());
       session->renderPicture();

@@ -11,6 +11,7 @@
 
 #include "app/session/session.h"
 #include "render/samples/integrator.h"
+#include "support/opened.h"
 #include "support/paths.h"
 
 namespace trace::test {
@@ -29,6 +30,8 @@ std::vector<std::string> shippedScenes() {
 }
 
 void renderByAll(const std::string& file) {
+  Session read;
+  read.open(file, {});
   std::unique_ptr<Session> before;  // whose world the next one shares
   for (const IntegratorRow& row : integrators()) {
     SCOPED_TRACE(file + " by " + std::string(row.name));
@@ -37,7 +40,7 @@ void renderByAll(const std::string& file) {
                                       {"photons", "500", {}}, {"chain-starts", "200", {}},
                                       {"denoise", "off", {}}, {"integrator", std::string(row.name), {}}};
     auto session = std::make_unique<Session>();
-    session->open(file, choices);
+    openAgain(*session, read, choices);
     session->build(before.get());
     const RenderResult result = session->renderPicture();
     EXPECT_EQ(result.end, End::finished) << result.failure;

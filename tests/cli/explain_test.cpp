@@ -1,6 +1,7 @@
 // ray explain and ray lint, as users meet them.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <list>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -16,8 +17,8 @@
 #include "base/sanitized.h"
 #include "cli/program.h"
 #include "image/codecs/codec.h"
-#include "scene/quality.h"
 #include "support/folder.h"
+#include "support/opened.h"
 #include "support/paths.h"
 #include "support/shared.h"
 
@@ -74,9 +75,9 @@ TEST_F(Explain, NamesTheCallsThatPlacedAGroup) {
        {std::pair{"20,15", "in i = 1 at pair.ray:4:1"}, std::pair{"25,15", "in i = 2 at pair.ray:4:1"}}) {
     const std::string text = out({"explain", "pair.ray", "--pixel", pixel, "-w", "40", "--quality", "draft"});
     EXPECT_NE(text.find(calls), text.npos) << text;
-    const nlohmann::json json = nlohmann::json::parse(
+    const json all = json::parse(
         out({"explain", "pair.ray", "--pixel", pixel, "-w", "40", "--quality", "draft", "--format", "json"}));
-    EXPECT_NE(json.at("made").get<std::string>().find(calls), std::string::npos) << json.at("made");
+    EXPECT_NE(all.at("made").get<std::string>().find(calls), std::string::npos) << all.at("made");
   }
 }
 
@@ -276,53 +277,44 @@ std::size_t timesIn(const std::string& text, const std::string& part) {
   return times;
 }
 
-/// Text, JSON, OBJ and drawing of some pixels: all are there, tell of the same rays, and sum to the picture.
-void expectFormsAgree(Session& session, bool draws) {
+/// Text, JSON, OBJ and drawing of a pixel: all are there, tell of the same rays, and sum to the picture.
+void expectFormsAgree(Session& session, int x, int y, bool draws) {
   const Size size = session.size();
-  const std::pair<int, int> pixels[] = {
-      {size.width / 2, size.height / 2}, {1, size.height - 2}, {size.width - 2, 1}};
-  for (const auto& [x, y] : pixels) {
-    const Explanation explanation = session.explain(x, y, 0);
-    const Scene& scene = session.sceneOf(explanation.tree);  // particles are others at each moment
-    const std::vector<ExplainedRay> rays = explainedRays(explanation.tree, scene);
-    const PixelFacts facts{scene,
-                           explanation,
-                           rays,
-                           size.width,
-                           size.height,
-                           session.film().ofSamples(x, y),
-                           session.settings()};
-    EXPECT_TRUE(facts.agrees());
-    const json all = json::parse(explainJson(facts));
-    ASSERT_EQ(all["rays"].size(), rays.size());
-    for (const json& ray : all["rays"]) {
-      if (ray["kind"] == "light") continue;  // brings nothing back
-      const auto expected = sum(all["rays"], ray);
-      for (std::size_t c = 0; c < 3; ++c)
-        if (ray["radiance"][c].is_number()) {
-          EXPECT_EQ(ray["radiance"][c].get<double>(), expected[c]) << ray["id"];
-        }
-    }
-    const Color rendered = session.film().ofSamples(x, y);
-    EXPECT_EQ(all["rays"][0]["radiance"], all["samples"][0]);
-    if (all["samples"].size() == 1 && isFinite(rendered)) {
-      EXPECT_EQ(all["rendered"], json({rendered.r, rendered.g, rendered.b}));
-      EXPECT_EQ(all["rays"][0]["radiance"], all["rendered"]);
-    }
-    const std::string text = explainText(facts, false), obj = raysAsObj(explanation.tree, rays);
-    EXPECT_EQ(timesIn(text, ": depth "), rays.size());
-    EXPECT_EQ(timesIn(obj, "\nl "), rays.size());
-    EXPECT_FALSE(contains(text, "do NOT sum"));
-    std::size_t filters = 0, told = 0;
-    for (const json& ray : all["rays"])
-      if (ray["kind"] == "shadow")
-        for (const json& filter : ray["filters"])
-          filters += filter["shadowless"] ? 0 : 1;  // told as passed by
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);)
-      told += line.find("* ") != line.npos && line.find(" through ") != line.npos;
-    EXPECT_EQ(told, filters) << text;
-    if (!draws) continue;
+  const Explanation explanation = session.explain(x, y, 0);
+  const Scene& scene = session.sceneOf(explanation.tree);  // particles are others at each moment
+  const std::vector<ExplainedRay> rays = explainedRays(explanation.tree, scene);
+  const PixelFacts facts{
+      scene, explanation, rays, size.width, size.height, session.film().ofSamples(x, y), session.settings()};
+  EXPECT_TRUE(facts.agrees());
+  const json all = json::parse(explainJson(facts));
+  ASSERT_EQ(all["rays"].size(), rays.size());
+  for (const json& ray : all["rays"]) {
+    if (ray["kind"] == "light") continue;  // brings nothing back
+    const auto expected = sum(all["rays"], ray);
+    for (std::size_t c = 0; c < 3; ++c)
+      if (ray["radiance"][c].is_number()) {
+        EXPECT_EQ(ray["radiance"][c].get<double>(), expected[c]) << ray["id"];
+      }
+  }
+  const Color rendered = session.film().ofSamples(x, y);
+  EXPECT_EQ(all["rays"][0]["radiance"], all["samples"][0]);
+  if (all["samples"].size() == 1 && isFinite(rendered)) {
+    EXPECT_EQ(all["rendered"], json({rendered.r, rendered.g, rendered.b}));
+    EXPECT_EQ(all["rays"][0]["radiance"], all["rendered"]);
+  }
+  const std::string text = explainText(facts, false), obj = raysAsObj(explanation.tree, rays);
+  EXPECT_EQ(timesIn(text, ": depth "), rays.size());
+  EXPECT_EQ(timesIn(obj, "\nl "), rays.size());
+  EXPECT_FALSE(contains(text, "do NOT sum"));
+  std::size_t filters = 0, told = 0;
+  for (const json& ray : all["rays"])
+    if (ray["kind"] == "shadow")
+      for (const json& filter : ray["filters"]) filters += filter["shadowless"] ? 0 : 1;  // told as passed by
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    told += line.find("* ") != line.npos && line.find(" through ") != line.npos;
+  EXPECT_EQ(told, filters) << text;
+  if (draws) {
     EXPECT_GT(toSvg(drawRays(scene, session.settings(), session.worldOf(explanation.tree), explanation.tree))
                   .size(),
               1000u);
@@ -336,11 +328,8 @@ TEST_F(Explain, EveryFormOfEverySceneAndIntegratorIsThereAndAgrees) {
   std::size_t shown = 0;
   for (std::size_t at = 0; at < files.size(); at += kStride) {
     const std::string& file = files[at];
-    Messages messages;
-    const std::string bytes = readFile(file);
-    const SceneAtMoment read = readSceneAtItsMoment(file, bytes, {}, messages);
-    SceneAt later;
-    if (read.changesWithTime) later = [&](Real moment) { return readScene(file, bytes, messages, moment); };
+    Session read;
+    read.open(file, {});
     std::list<Session> sessions;  // the first is kept: what is the same is shared with it
     for (const IntegratorRow& row : integrators()) {
       if (row.traits.has(Trait::byChains))
@@ -359,14 +348,18 @@ TEST_F(Explain, EveryFormOfEverySceneAndIntegratorIsThereAndAgrees) {
                                           {"moments", "2"},
                                           {"medium-depth", "3"}})
         choices.push_back({std::string(option), std::string(value), {}});
-      Settings settings = settingsFor(read.scene, {read.scene.choices, choices});
-      settings.caustics = std::min(settings.caustics, 500);
+      if (read.settings().caustics > 0) choices.push_back({"caustics", "500", {}});
       Session& session = sessions.emplace_back();
-      session.open(read.scene, settings, later);
+      openAgain(session, read, choices);
       session.build(sessions.size() > 1 ? &sessions.front() : nullptr);
       session.renderPicture();
       const std::string name = std::filesystem::path(file).stem().string();
-      expectFormsAgree(session,
+      const Size size = session.size();
+      const std::array<std::pair<int, int>, 3> pixels{
+          // each integrator has one of them
+          {{size.width / 2, size.height / 2}, {1, size.height - 2}, {size.width - 2, 1}}};
+      const auto& [x, y] = pixels[static_cast<std::size_t>(row.kind) % pixels.size()];
+      expectFormsAgree(session, x, y,
                        row.name == "whitted" && (name == "cloud" || name == "mist" || name == "underwater"));
       ++shown;
       if (sessions.size() > 1) sessions.pop_back();

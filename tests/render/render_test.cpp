@@ -25,7 +25,7 @@ bool sameBits(const Picture& a, const Picture& b) {
 TEST(Render, SameBitsAndCountsForAnyNumberOfThreads) {
   Random random(1);
   const Scene scene = randomScene(random, 20);
-  Settings settings{.width = 130, .spp = 4, .depth = 4, .threads = 1};
+  Settings settings{.width = 66, .spp = 4, .depth = 4, .threads = 1};
   Statistics one;
   const Picture reference = picture(scene, settings, &one);
   for (int threads : {2, 7}) {

@@ -57,6 +57,7 @@ class Session {
   void open(Scene scene, const Settings& settings, SceneAt sceneAt = {});
 
   const Scene& scene() const { return scene_; }
+  const SceneAt& sceneAt() const { return sceneAt_; }  ///< null for a scene that does not change with time
   const Settings& settings() const { return settings_; }
   const Messages& messages() const { return messages_; }  ///< warnings of reading and building
   Size size() const { return pictureSize(settings_, scene_.camera); }
