@@ -23,7 +23,7 @@ def caption(picture, command, ray):
     if frames is not None:  # the page shows its first frame
         del arguments[frames:frames + 2]
     run = subprocess.run([ray, "render", *arguments, "-o", picture, "--passes", "none", "--strict", "--resume=never",
-                          "--stats=json"], cwd=ROOT, stdout=subprocess.PIPE, check=True)
+                          "--jpeg-quality", "90", "--stats=json"], cwd=ROOT, stdout=subprocess.PIPE, check=True)
     said = json.loads(run.stdout)
     text = f"{said['width']} x {said['height']} pixels"
     if (said["error"]["mean"] or 0) >= 0.005:
