@@ -9,7 +9,7 @@
 
 #include "app/lint/lint.h"
 #include "app/session/session.h"
-#include "app/view/scene_model.h"
+#include "app/view/space/scene_model.h"
 #include "base/budget.h"
 #include "base/files/file.h"
 #include "base/looks.h"

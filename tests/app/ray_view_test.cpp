@@ -9,7 +9,7 @@
 #include "app/explain/ray_segments.h"
 #include "app/session/session.h"
 #include "app/view/orbit_camera.h"
-#include "app/view/scene_model.h"
+#include "app/view/space/scene_model.h"
 #include "base/text.h"
 #include "formats/format.h"
 #include "geometry/shapes/solids/copies.h"
@@ -286,6 +286,32 @@ TEST(SceneModel, SaysWhatIsDrawnCoarselyOrNotAtAll) {
             "the view in space leaves out 1 isosurface, which is empty or folds too finely for triangles");
   EXPECT_EQ(warnings[0].place.file, "fine.ray");
   EXPECT_EQ(modeler.model(scene).warnings, warnings);  // of shapes that were kept, too
+}
+
+TEST(SceneModel, HasFewerTrianglesForFramesThatMustNotBeLate) {
+  Scene scene;
+  for (int i = 0; i < 40; ++i) addObject(scene, Sphere{}, Affine::translation({3.0 * i, 0, 0}), {});
+  const SceneModel model = SceneModeler{}.model(scene);
+  const std::size_t known = model.shared.corners.size() / 6;
+  ASSERT_GT(model.corners.size() / 18, 2 * SceneModel::kFewTriangles);  // or the test tests nothing
+  std::size_t few = 0;
+  for (const ScenePart& part : model.parts) {
+    EXPECT_GT(part.fewCount, 0u);
+    EXPECT_EQ(part.fewCount % 3, 0u);
+    ASSERT_LE(part.fewFirst + part.fewCount, model.shared.indices.size());
+    few += part.fewCount / 3;
+    for (std::size_t i = part.fewFirst; i < part.fewFirst + part.fewCount; ++i) {
+      ASSERT_LT(model.shared.indices[i], known);
+      const float* c = &model.shared.corners[6 * model.shared.indices[i]];
+      const Vec3 p = Vec3(c[0], c[1], c[2]) * model.scale + model.origin;
+      EXPECT_NEAR(length(p - Vec3(3.0 * part.object, 0, 0)), 1, 0.01) << part.object;  // its own corner
+    }
+  }
+  EXPECT_LT(few, SceneModel::kFewTriangles * 3 / 2);
+  scene.objects.resize(1);
+  const SceneModel one = SceneModeler{}.model(scene);  // has few of its own accord
+  EXPECT_EQ(one.parts[0].fewFirst, one.parts[0].first);
+  EXPECT_EQ(one.parts[0].fewCount, one.parts[0].count);
 }
 
 TEST(SceneModel, IsAsFineAsItIsAskedFor) {

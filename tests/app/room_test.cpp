@@ -1,9 +1,9 @@
 // A room around a camera is seen into from outside.
-#include "app/view/room.h"
+#include "app/view/space/room.h"
 
 #include <gtest/gtest.h>
 
-#include "app/view/scene_model.h"
+#include "app/view/space/scene_model.h"
 #include "geometry/shapes/solids/cube.h"
 #include "geometry/shapes/solids/plane.h"
 #include "geometry/shapes/solids/sphere.h"

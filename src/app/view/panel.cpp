@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "app/view/magnifier.h"
-#include "app/view/room.h"
-#include "app/view/scene_model.h"
+#include "app/view/space/room.h"
+#include "app/view/space/scene_model.h"
 #include "math/elementary.h"
 
 namespace trace {

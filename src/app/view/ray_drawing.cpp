@@ -7,8 +7,8 @@
 
 #include "app/explain/ray_segments.h"
 #include "app/view/panel.h"
-#include "app/view/room.h"
-#include "app/view/scene_model.h"
+#include "app/view/space/room.h"
+#include "app/view/space/scene_model.h"
 #include "math/elementary.h"
 #include "render/picture/passes.h"
 #include "render/picture/render.h"

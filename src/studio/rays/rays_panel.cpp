@@ -125,17 +125,20 @@ void drawNumbers(Studio& studio, const TracedPixel& pixel) {
   ImGui::EndTable();
 }
 
-/// The next ray, when its time has come.
+/// Lets the last ray grow; the next one comes when its time has come.
 void playOn(Studio& studio) {
   RaysView& view = studio.rays;
-  constexpr double kPause = 0.7;  // seconds for each ray
-  if (view.playsAt < 0 || ImGui::GetTime() < view.playsAt) return;
+  constexpr double kPause = 0.8, kGrowth = 0.5;  // seconds for each ray, and those while it grows
+  const double left = view.playsAt - ImGui::GetTime();
+  view.grown = view.playsAt < 0 ? 1 : static_cast<float>(std::clamp((kPause - left) / kGrowth, 0.0, 1.0));
+  if (view.playsAt < 0 || left > 0) return;
   if (!shownPixel(studio) || view.step >= static_cast<int>(view.rays)) {
     view.step = view.playsAt = -1;
     return;
   }
   stepRays(studio, 1);
   view.playsAt = ImGui::GetTime() + kPause;
+  view.grown = 0;
 }
 
 }  // namespace

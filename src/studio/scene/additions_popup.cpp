@@ -11,7 +11,7 @@
 #include "app/editing/placing.h"
 #include "app/editing/scene_changes.h"
 #include "app/editing/texture_edits.h"
-#include "app/view/scene_model.h"
+#include "app/view/space/scene_model.h"
 #include "geometry/mesh/tessellate.h"
 #include "render/world/hit.h"
 #include "scene/picture_size.h"

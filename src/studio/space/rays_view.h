@@ -9,11 +9,11 @@
 
 #include "app/explain/chain_walk.h"
 #include "app/explain/pixel_inspector.h"
-#include "app/view/drag_pace.h"
 #include "app/view/gizmo.h"
 #include "app/view/orbit_camera.h"
-#include "app/view/scene_model.h"
 #include "app/view/screen/overlays.h"
+#include "app/view/space/drag_pace.h"
+#include "app/view/space/scene_model.h"
 #include "app/view/way_pyramid.h"
 #include "image/development/development.h"
 #include "render/rays/visited_boxes.h"
@@ -91,6 +91,7 @@ struct RaysView {
   bool revealMove = false;  ///< the table scrolls to it
 
   double playsAt = -1;  ///< seconds of Dear ImGui's clock when Play takes the next step; -1: it does not play
+  float grown = 1;      ///< share of the length of the last of `step` rays that is drawn; less while it plays
 
   // The view in space.
   GizmoHold gizmo;
@@ -117,7 +118,7 @@ struct RaysView {
   bool fromCamera = false;
   std::weak_ptr<const Session> wallsOf;  ///< for which the walls were found
   std::vector<std::uint32_t>
-      walls;               ///< walls of the room that the scene's camera stands in; see app/view/room.h
+      walls;               ///< walls of the room that the scene's camera stands in; see app/view/space/room.h
   bool roomOpened = true;  ///< those of them that hide its inside are left out
   Surfaces surfaces = Surfaces::shaded;
   float opacity = 1;  ///< opacity of surfaces
@@ -131,6 +132,7 @@ struct RaysView {
   ViewCorner legendCorner = ViewCorner::lowerLeft;
 
   bool inStep(int node) const { return step < 0 || node < step; }
+  bool grows(int node) const { return grown < 1 && node == step - 1; }
 };
 
 /// In a dark window the colours of the table are lightened; the grey of camera rays is nearly white there,

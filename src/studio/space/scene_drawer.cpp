@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdio>
 #include <string>
 #include <utility>
 
+#include "app/view/screen/dither.h"
 #include "studio/space/see_through.h"
 #include "studio/space/shader.h"
 #include "studio/widgets/gl.h"
@@ -33,18 +35,28 @@ void main() {
   gl_Position = matrix * vec4(position, 1);
 })";
 
-// Part of a level of 255, so that slow changes of shade do not end in bands; as app/view/screen/dither.h has
-// it.
-constexpr const char* kDither = R"(
+/// A number as shaders are told it.
+std::string precise(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9f", number);
+  return text;
+}
+
+// Part of a level of 255, so that slow changes of shade do not end in bands: ditherAt() for shaders.
+const std::string kDither = R"(
 uniform float ditherStep;
 float dither() {
-  vec2 p = gl_FragCoord.xy + 5.588238 * ditherStep;
-  return (fract(52.9829189 * fract(dot(p, vec2(0.06711056, 0.00583715)))) - 0.5) / 255.0;
+  vec2 p = gl_FragCoord.xy + )" +
+                            precise(Dither::kApart) + R"( * ditherStep;
+  return (fract()" + precise(Dither::kTurns) +
+                            " * fract(dot(p, vec2(" + precise(Dither::kAcross) + ", " +
+                            precise(Dither::kDown) +
+                            R"()))) - 0.5) / 255.0;
 }
 )";
 
 // Lit from the eye and a little from above, or by the scene's lights; on both sides.
-const std::string kSurfaceFragment = std::string() + SeeThrough::kDeclarations + kDither + R"(
+const std::string kSurfaceFragment = SeeThrough::kDeclarations + kDither + R"(
 in vec3 place, facing;
 uniform vec3 eye, inside;
 uniform bool wall;
@@ -55,7 +67,7 @@ uniform vec4 lampPlaces[8];  // w is 0 for a direction
 uniform vec3 lampColours[8];
 out vec4 result;
 void main() {
-  vec3 across = cross(dFdx(place), dFdy(place));  // as app/view/room.h has it
+  vec3 across = cross(dFdx(place), dFdy(place));  // as app/view/space/room.h has it
   if (wall && dot(across, eye - place) * dot(across, inside - place) < 0.0) discard;
   peel();
   vec3 n = normalize(flatly ? across : facing), v = normalize(eye - place);
@@ -124,7 +136,7 @@ void main() { result = vec4(texture(picture, at).rgb, opacity); })";
 constexpr const char* kCopyVertex =
     R"(void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0, 1); })";
 
-const std::string kCopyFragment = std::string() + kDither + R"(uniform sampler2D picture;
+const std::string kCopyFragment = kDither + R"(uniform sampler2D picture;
 uniform bool rounded;  // to bytes
 out vec4 result;
 void main() {

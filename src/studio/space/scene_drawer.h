@@ -1,5 +1,5 @@
 // Draws triangles and lines in space into a texture: the OpenGL of the 3D view. What is drawn, others decide
-// (app/view/scene_model.h, scene_view.cpp).
+// (app/view/space/scene_model.h, scene_view.cpp).
 #pragma once
 
 #include <imgui.h>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/view/orbit_camera.h"
-#include "app/view/scene_model.h"
+#include "app/view/space/scene_model.h"
 #include "math/color.h"
 
 namespace trace::studio {

@@ -149,7 +149,9 @@ void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, const 
   for (const RaySegment& segment : pixel.segments) {
     const int i = segment.node;
     const RayNode& node = pixel.tree().nodes[static_cast<std::size_t>(i)];
-    if (view.lookHidden[static_cast<std::size_t>(segment.looks)] || (!pinned && !view.inStep(i))) continue;
+    if (view.lookHidden[static_cast<std::size_t>(segment.looks)] ||
+        (!pinned && (!view.inStep(i) || view.grows(i))))
+      continue;
     const bool hot = !pinned && (i == view.selected || i == view.step - 1);
     const Color colour = pinned ? Color(0.6) : colourOf(segment.looks, studio.theme.light);
     const auto& way = view.wayRays;

@@ -8,8 +8,8 @@
 
 #include "app/explain/pixel_why.h"
 #include "app/view/magnifier.h"
-#include "app/view/room.h"
 #include "app/view/screen/overlays.h"
+#include "app/view/space/room.h"
 #include "math/elementary.h"
 #include "scene/picture_size.h"
 #include "studio/scene/selection.h"
@@ -58,7 +58,7 @@ void updateModel(Studio& studio) {
     if (made->model.warnings != view.model.warnings) studio.workspace.report(made->model.warnings);
     view.model = std::move(made->model);
     view.drawer->setCorners(view.model.shared);
-    view.built = true;
+    if (!std::exchange(view.built, true)) view.pace.begin();
   }
 }
 
@@ -127,13 +127,14 @@ void addOrExtend(std::vector<DrawSurface>& parts, const DrawSurface& part) {
   parts.push_back(part);
 }
 
-void addSurfaces(const RaysView& view, SpaceDrawing& drawing) {
+void addSurfaces(const RaysView& view, bool few, SpaceDrawing& drawing) {
   constexpr float kWire = 0.5f;
   if (view.surfaces == Surfaces::none) return;
   for (const ScenePart& part : view.model.parts) {
     const float own = static_cast<float>(part.opacity);
     constexpr Color kPlain(0.7);
-    DrawSurface surface{part.first, part.count, view.materialsShown ? part.color : kPlain,
+    DrawSurface surface{few ? part.fewFirst : part.first, few ? part.fewCount : part.count,
+                        view.materialsShown ? part.color : kPlain,
                         view.materialsShown ? std::min(view.opacity, own) : view.opacity};
     surface.wall = view.roomOpened && std::binary_search(view.walls.begin(), view.walls.end(), part.object);
     if (view.surfaces == Surfaces::wireframe) {
@@ -219,11 +220,9 @@ int rayUnderCursor(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVe
   return nearest;
 }
 
-/// The ray under the cursor, here or in the table, over the drawing, which is not drawn again for it.
-void drawHovered(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size, int ray) {
-  const TracedPixel* pixel = shownPixel(studio);
-  if (!pixel || ray < 0 || static_cast<std::size_t>(ray) >= pixel->segments.size()) return;
-  const RaySegment& segment = pixel->segments[static_cast<std::size_t>(ray)];
+/// A ray over the drawing, which is not drawn again for it.
+void drawOver(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size,
+              const RaySegment& segment) {
   const auto seen = onScreen(studio.rays, matrix, low, size, segment);
   if (!seen) return;
   const Color c = lerp(0.5, colourOf(segment.looks, studio.theme.light), Color(studio.theme.light ? 0 : 1));
@@ -235,6 +234,25 @@ void drawHovered(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2
                    ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1)),
                4 * studio.theme.scale);
   list.PopClipRect();
+}
+
+/// The ray under the cursor, here or in the table.
+void drawHovered(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size, int ray) {
+  const TracedPixel* pixel = shownPixel(studio);
+  if (pixel && ray >= 0 && static_cast<std::size_t>(ray) < pixel->segments.size())
+    drawOver(studio, matrix, low, size, pixel->segments[static_cast<std::size_t>(ray)]);
+}
+
+/// The ray that grows while they play.
+void drawGrowing(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size) {
+  const RaysView& view = studio.rays;
+  const TracedPixel* pixel = shownPixel(studio);
+  if (!pixel) return;
+  for (RaySegment segment : pixel->segments) {
+    if (!view.grows(segment.node) || view.lookHidden[static_cast<std::size_t>(segment.looks)]) continue;
+    segment.to = segment.from + (segment.to - segment.from) * static_cast<Real>(view.grown);
+    drawOver(studio, matrix, low, size, segment);
+  }
 }
 
 /// The scene's light that is drawn at the cursor; none if there is none.
@@ -564,7 +582,8 @@ void drawSpace(Studio& studio) {
   const auto pixels = [](float length, float scale) { return std::max(1, static_cast<int>(length * scale)); };
   const ImVec4 background = ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg);
   const bool held = ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1) || ImGui::IsMouseDown(2);
-  const float share = view.pace.halves(held, io.DeltaTime) ? 0.5f : 1;
+  const Left left = view.pace.after(held, io.DeltaTime);
+  const float share = left == Left::pixels ? 0.5f : 1;
   SpaceDrawing drawing{.width = pixels(size.x, share * io.DisplayFramebufferScale.x),
                        .height = pixels(size.y, share * io.DisplayFramebufferScale.y),
                        .background = {background.x, background.y, background.z, 1},
@@ -572,7 +591,7 @@ void drawSpace(Studio& studio) {
                        .eye = local.eye,
                        .inside = (camera.eye - view.model.origin) / view.model.scale,
                        .hidden = kHidden};
-  addSurfaces(view, drawing);
+  addSurfaces(view, left != Left::nothing, drawing);
   addLights(view, document.scene(), drawing);
   const Frustum frustum = frustumOf(camera, 0.5 * view.size / length(camera.look));
   const Texture& picture = studio.picture.pictureTexture;
@@ -614,6 +633,7 @@ void drawSpace(Studio& studio) {
     }
   }
   drawHovered(studio, matrix, low, size, view.hovered >= 0 ? view.hovered : view.hoveredBefore);
+  drawGrowing(studio, matrix, low, size);
   drawLightsBeyond(studio, matrix, low, size);
   drawLegend(studio, matrix, low, size);
   if (hovered && view.hovered >= 0) drawEquation(studio, low, size, view.hovered);

@@ -1,4 +1,4 @@
-#include "app/view/scene_model.h"
+#include "app/view/space/scene_model.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "app/view/space/simplified.h"
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/tessellate.h"
 #include "scene/groups.h"
@@ -151,6 +152,24 @@ Box3 frameAround(const std::vector<Box3>& boxes, const Vec3& eye) {
   return {frame.low - room, frame.high + room};
 }
 
+/// Adds fewer triangles of each part, those of large parts.
+void addFew(SceneModel& model) {
+  constexpr std::size_t kSmall = 100;  // triangles that no part has too many of
+  SharedCorners& shared = model.shared;
+  const std::size_t all = std::max<std::size_t>(shared.indices.size() / 3, 1);
+  for (ScenePart& part : model.parts) {
+    part.fewFirst = part.first;
+    part.fewCount = part.count;
+    const std::size_t own = part.count / 3;
+    const std::size_t most = std::max(kSmall, own * SceneModel::kFewTriangles / all);
+    if (own <= most) continue;
+    const auto few = simplified({shared.indices.data() + part.first, part.count}, shared.corners, most);
+    part.fewFirst = shared.indices.size();
+    part.fewCount = few.size();
+    shared.indices.insert(shared.indices.end(), few.begin(), few.end());
+  }
+}
+
 }  // namespace
 
 SharedCorners sharedCorners(const std::vector<float>& corners) {
@@ -240,8 +259,12 @@ SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled, d
       if (material >= scene.materials.size()) continue;  // as if nothing were there
       const MaterialLook look = lookOf(scene.materials[material]);
       const std::uint32_t number = i < given.objects.size() ? i : ScenePart::kCopy;
-      model.parts.push_back(
-          {number, look.color, look.opacity, model.corners.size() / 6, 3 * firsts.size(), box});
+      model.parts.push_back({.object = number,
+                             .color = look.color,
+                             .opacity = look.opacity,
+                             .first = model.corners.size() / 6,
+                             .count = 3 * firsts.size(),
+                             .box = box});
       for (const std::size_t first : firsts)
         for (std::size_t corner = first; corner < first + 3; ++corner) {
           const auto p = model.local(object.worldFromObject * (*corners)[corner].point);
@@ -252,6 +275,7 @@ SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled, d
     }
   }
   model.shared = sharedCorners(model.corners);
+  if (!(cancelled && cancelled())) addFew(model);
   made_ = std::move(kept);
   model.warnings = drawn.warnings(scene.file);
   if (const std::size_t all = countPlacedObjects(given); all > kMostDrawnCopies)

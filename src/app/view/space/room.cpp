@@ -1,4 +1,4 @@
-#include "app/view/room.h"
+#include "app/view/space/room.h"
 
 #include <algorithm>
 #include <cmath>

@@ -19,17 +19,18 @@ namespace trace {
 struct ScenePart {
   static constexpr std::uint32_t kCopy = 0xffffffffu;
 
-  std::uint32_t object = 0;          ///< index into Scene::objects; kCopy of one in a placed group
-  Color color;                       ///< what it looks like in white light
-  Real opacity = 1;                  ///< less of what transmits light
-  std::size_t first = 0, count = 0;  ///< first and count of SceneModel::corners
+  std::uint32_t object = 0;                ///< index into Scene::objects; kCopy of one in a placed group
+  Color color;                             ///< what it looks like in white light
+  Real opacity = 1;                        ///< less of what transmits light
+  std::size_t first = 0, count = 0;        ///< first and count of SceneModel::corners
+  std::size_t fewFirst = 0, fewCount = 0;  ///< the same of fewer triangles, in SharedCorners::indices only
   std::array<Vec3, 8> box;  ///< box of the object's own bounds, in the world: bits of the index are x, y, z
 };
 
 /// Corners that are the same, once each.
 struct SharedCorners {
   std::vector<float> corners;          ///< position and normal, six floats for each
-  std::vector<std::uint32_t> indices;  ///< the one that each of the given corners is
+  std::vector<std::uint32_t> indices;  ///< the one that each of the given corners is; then those of others
 };
 SharedCorners sharedCorners(const std::vector<float>& corners);
 
@@ -39,7 +40,10 @@ struct SceneModel {
   Real scale = 1;
   /// Position and normal, six floats for each corner of a triangle.
   std::vector<float> corners;
-  SharedCorners shared;  ///< the same for a graphics card, which is slow by corners
+  /// Corners as a graphics card wants them, which is slow by corners; and fewer triangles, about kFewTriangles, for
+  /// frames that must not be late.
+  SharedCorners shared;
+  static constexpr std::size_t kFewTriangles = 16000;
   std::vector<ScenePart> parts;
   std::vector<Message> warnings;  ///< warnings of shapes that are drawn coarser than others, or not at all
 
