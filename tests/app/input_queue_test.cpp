@@ -69,15 +69,15 @@ TEST(InputQueue, ADoubleClickWithinOneFrameIsTwoClicks) {
   for (const InputEvent& event :
        {pointer(10, 10), pointer(20, 20), button(true), button(false), button(true), button(false)})
     queue.add(event);
-  EXPECT_EQ(frames(queue), (Frames{"to 10 to 20 press", "release", "press", "release"}));
+  EXPECT_EQ(frames(queue), (Frames{"to 10 to 20", "press", "release", "press", "release"}));
 }
 
-TEST(InputQueue, APressHappensWhereThePointerWas) {
+TEST(InputQueue, APressHappensWhereAFrameBeforeSawThePointer) {
   InputQueue queue;
   for (const InputEvent& event :
        {pointer(10, 0), button(true), pointer(90, 0), button(false), pointer(50, 0)})
     queue.add(event);
-  EXPECT_EQ(frames(queue), (Frames{"to 10 press", "to 90 release", "to 50"}));
+  EXPECT_EQ(frames(queue), (Frames{"to 10", "press", "to 90 release", "to 50"}));
 }
 
 TEST(InputQueue, AControlKeyIsSeenWithItsControlHoweverTheFramesFall) {
@@ -160,7 +160,7 @@ TEST(InputQueue, TheWheelTurnsWhereThePointerIsAndNotWhileAButtonChanges) {
   queue.add(pointer(60, 60));
   queue.add(button(true));
   queue.add({.kind = Kind::wheel, .y = 1});
-  EXPECT_EQ(frames(queue), (Frames{"to 5 wheel wheel", "to 60 press", "wheel"}));
+  EXPECT_EQ(frames(queue), (Frames{"to 5 wheel wheel", "to 60", "press", "wheel"}));
 }
 
 TEST(InputQueue, AnEmptyQueueGivesAnEmptyFrame) {

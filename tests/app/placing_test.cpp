@@ -100,6 +100,59 @@ TEST(Placing, ANewObjectStandsBesideOthersAndNotInThem) {
   EXPECT_GE(freedFrom({wide}, own, view, camera.updir).y, 0.9);
 }
 
+TEST(Placing, ANewObjectStandsOnTheFloorBesideOthersAndIsSeenWhole) {
+  Camera camera;
+  camera.position = {0, 3, 8}, camera.viewdir = {0, -2, -8}, camera.fov = 40;
+  const CameraFrame view = frame(camera, CameraAxes::orthonormal);
+  const Box3 unit{{-1, -1, -1}, {1, 1, 1}}, floor{{-30, 0, -30}, {30, 0, 30}};
+  std::vector<Box3> others{floor, {{-1, 0, -1}, {1, 2, 1}}};
+  const auto lookAt = [&](const Vec2& place) -> std::optional<SeenObject> {
+    const Ray ray = view.ray(place);
+    std::optional<SeenObject> nearest;
+    Real least = kInfinity;
+    for (const Box3& box : others) {  // their upper sides
+      const Real t = (box.high.y - ray.origin.y) / ray.direction.y;
+      const Vec3 at = ray.at(t);
+      if (!(t > 0 && t < least) || at.x < box.low.x || at.x > box.high.x || at.z < box.low.z ||
+          at.z > box.high.z)
+        continue;
+      least = t;
+      nearest = SeenObject{{}, box};
+      nearest->surface.point = at;
+      nearest->surface.normal = {0, 1, 0};
+    }
+    return nearest;
+  };
+  for (int i = 0; i < 5; ++i) {  // five, one after the other
+    const auto placed = placedAmong(unit, view, camera.updir, others, lookAt);
+    ASSERT_TRUE(placed) << i;
+    const Box3 own = *placed * unit;
+    EXPECT_NEAR(own.low.y, 0, 1e-9) << i;
+    for (std::size_t k = 1; k < others.size(); ++k) {
+      const Box3& other = others[k];
+      EXPECT_TRUE(own.low.x > other.high.x - 0.05 || own.high.x < other.low.x + 0.05 ||
+                  own.low.z > other.high.z - 0.05 || own.high.z < other.low.z + 0.05)
+          << i << " in " << k;
+    }
+    for (const Vec3& corner : {own.low, own.high}) {
+      const auto place = view.placeOf(corner);
+      ASSERT_TRUE(place) << i;
+      EXPECT_TRUE(place->x > 0 && place->x < 1 && place->y > 0 && place->y < 1) << i;
+    }
+    others.push_back(own);
+  }
+  EXPECT_FALSE(placedAmong(unit, view, camera.updir, others, [](const Vec2&) { return std::nullopt; }));
+}
+
+TEST(Placing, ShapesAlongTheirZAxisStand) {
+  for (const Vec3& updir : {Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, 0, -1), Vec3(0.1, -1, 0)}) {
+    const Affine turn = upright("cone", updir);
+    const Vec3 axis = turn * Vec3(0, 0, 1);
+    EXPECT_GT(dot(axis, normalize(updir)), 0.99) << updir.x << " " << updir.y << " " << updir.z;
+  }
+  EXPECT_EQ(upright("torus", {0, 1, 0}), Affine{});
+}
+
 TEST(Placing, ANewLightIsAboveAndToTheLeftAndBrightEnough) {
   Camera camera;
   camera.position = {0, 1, 10}, camera.viewdir = {0, 0, -1};

@@ -6,6 +6,7 @@
 
 #include "base/find_field.h"
 #include "formats/directions.h"
+#include "math/elementary.h"
 #include "shading/frame.h"
 
 namespace trace {
@@ -70,8 +71,9 @@ Vec3 letDown(const Box3& own, const Vec3& updir,
 
 namespace {
 
-bool holds(const Box3& outer, const Box3& inner) {
-  return outer.contains(inner.low) && outer.contains(inner.high);
+/// Is the object in it as in a room, together with the eye?
+bool isRoom(const Box3& other, const Box3& own, const Vec3& eye) {
+  return other.contains(own.low) && other.contains(own.high) && other.contains(eye);
 }
 
 /// They have more than a touch in common.
@@ -91,8 +93,9 @@ Vec3 freedFrom(const std::vector<Box3>& others, const Box3& own, const CameraFra
   const auto moved = [&](const Vec3& by) { return Box3{own.low + by, own.high + by}; };
   const auto isFree = [&](const Vec3& by) {
     const Box3 there = moved(by);
-    return std::none_of(others.begin(), others.end(),
-                        [&](const Box3& other) { return overlap(there, other) && !holds(other, there); });
+    return std::none_of(others.begin(), others.end(), [&](const Box3& other) {
+      return overlap(there, other) && !isRoom(other, there, camera.eye);
+    });
   };
   if (isFree({})) return {};
   const Vec3 up = upOf(updir), right = normalize(camera.right - up * dot(camera.right, up));
@@ -105,6 +108,94 @@ Vec3 freedFrom(const std::vector<Box3>& others, const Box3& own, const CameraFra
   for (int i = 1; i <= 2 * kSteps; ++i)
     if (const Vec3 by = up * (step * i); isFree(by)) return by;
   return {};
+}
+
+Affine upright(std::string_view shape, const Vec3& updir) {
+  constexpr std::string_view kAlongZ[] = {"cylinder",   "cone",        "conic",      "elliptic_cone",
+                                          "paraboloid", "hyperboloid", "two_sheets", "lathe"};
+  if (std::find(std::begin(kAlongZ), std::end(kAlongZ), shape) == std::end(kAlongZ)) return {};
+  const Vec3 axis{0, 0, 1}, up = upOf(updir), across = cross(axis, up);
+  if (length(across) > 0) return Affine::rotation(across, kPi / 2);
+  return dot(axis, up) > 0 ? Affine{} : Affine::rotation({1, 0, 0}, kPi);
+}
+
+namespace {
+
+/// Around a box as the picture shows it; nothing if some of it is behind the camera.
+struct Rectangle {
+  Vec2 low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+  Real area() const { return std::max(0.0, high.x - low.x) * std::max(0.0, high.y - low.y); }
+};
+std::optional<Rectangle> shownOf(const Box3& box, const CameraFrame& camera) {
+  Rectangle shown;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 at{corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                  corner & 4 ? box.high.z : box.low.z};
+    const auto place = camera.placeOf(at);
+    if (!place) return {};
+    shown.low = {std::min(shown.low.x, place->x), std::min(shown.low.y, place->y)};
+    shown.high = {std::max(shown.high.x, place->x), std::max(shown.high.y, place->y)};
+  }
+  return shown;
+}
+
+/// The share of the smaller one that both have.
+Real shareOfBoth(const Rectangle& a, const Rectangle& b) {
+  const Rectangle both{{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)},
+                       {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
+  const Real smaller = std::min(a.area(), b.area());
+  return smaller > 0 && both.high.x > both.low.x && both.high.y > both.low.y ? both.area() / smaller : 0;
+}
+
+/// An object may stand there with room around it.
+bool isWide(const Box3& support, const Box3& own, const Vec3& up) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (up[axis] == 0 && support.size()[axis] < 2 * own.size()[axis]) return false;
+  return true;
+}
+
+}  // namespace
+
+std::optional<Affine> placedAmong(const Box3& bounds, const CameraFrame& camera, const Vec3& updir,
+                                  const std::vector<Box3>& others, const LookAt& lookAt) {
+  constexpr int kPlaces = 17;               // along each side of the picture
+  constexpr Real kRim = 0.02, kFlat = 0.8;  // shares of the picture; least cosine
+  constexpr Real kHides = 2, kNarrow = 1;   // against the distance from the middle, across and in depth
+  const Vec3 up = upOf(updir);
+  const auto distanceTo = [&](const SeenObject& seen) { return length(seen.surface.point - camera.eye); };
+  const auto middle = lookAt({0.5, 0.5});
+  std::optional<Affine> best;
+  for (const Real smaller : {1.0, 0.6, 0.35}) {
+    Real least = kInfinity;
+    for (int i = 0; i < kPlaces * kPlaces; ++i) {
+      const Vec2 place{(i % kPlaces + 0.5) / kPlaces, (i / kPlaces + 0.5) / kPlaces};
+      Real cost = math::hypot(place.x - 0.5, place.y - 0.5);
+      if (cost >= least) continue;
+      const auto seen = lookAt(place);
+      if (!seen || std::abs(dot(seen->surface.normal, up)) < kFlat) continue;
+      if (middle) cost += std::abs(math::log(distanceTo(*seen) / distanceTo(*middle)));
+      const Vec3& foot = seen->surface.point;
+      const Affine placed = Affine::translation(foot) * Affine::scaling(Vec3(1, 1, 1) * smaller) *
+                            Affine::translation(-foot) *
+                            placedInSight(bounds, camera, updir, seen->surface, 0);
+      const Box3 own = placed * bounds;
+      const auto shown = shownOf(own, camera);
+      if (!shown || shown->low.x < kRim || shown->low.y < kRim || shown->high.x > 1 - kRim ||
+          shown->high.y > 1 - kRim)
+        continue;
+      if (!isWide(seen->box, own, up)) cost += kNarrow;
+      for (const Box3& other : others) {
+        if (other == seen->box || isRoom(other, own, camera.eye)) continue;
+        const auto hidden = shownOf(other, camera);
+        cost += overlap(own, other) ? kInfinity : hidden ? kHides * shareOfBoth(*shown, *hidden) : 0;
+      }
+      if (cost >= least) continue;
+      least = cost;
+      best = placed;
+    }
+    if (best) return best;
+  }
+  return best;
 }
 
 Vec3 placeOfLight(const CameraFrame& camera, const Vec3& updir, const Vec3& target) {

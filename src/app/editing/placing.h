@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "geometry/ray.h"
@@ -26,6 +27,24 @@ Affine stretched(const Affine& placed, const Vec3& factors);
 /// not make it flat.
 bool keepsObject(const Affine& placed);
 
+/// Turns a shape whose axis is its own z, such as a cone, so that it stands upright for a camera; others
+/// stay.
+Affine upright(std::string_view shape, const Vec3& updir);
+
+/// A surface that the camera sees, and the box of its object.
+struct SeenObject {
+  SurfacePoint surface;
+  Box3 box;
+};
+using LookAt = std::function<std::optional<SeenObject>(const Vec2& place)>;
+
+/// A new object on something flat, as near to the middle of the picture as there is room: it lies wholly in
+/// the picture, overlaps none of the `others` and hides little of them. Something that is wide, as a floor,
+/// is preferred to the top of a small thing. Its size is that of placedInSight(), or less where there is no
+/// room. None if there is no such place.
+std::optional<Affine> placedAmong(const Box3& bounds, const CameraFrame& camera, const Vec3& updir,
+                                  const std::vector<Box3>& others, const LookAt& lookAt);
+
 /// A new object in the middle of the camera's picture: it stands on what is there, or floats `ahead` of the
 /// camera where nothing is, and fills about a quarter of the picture's height. Its own bounds are `bounds`;
 /// one without an end stays as it is made.
@@ -38,7 +57,7 @@ Vec3 letDown(const Box3& own, const Vec3& updir,
              const std::function<std::optional<Real>(const Ray&)>& distance);
 
 /// The move that frees a new object, whose box this is, from the boxes of others: to the right, to the left,
-/// toward the eye, or on top of them. None if it is free. What holds it wholly, as a room does, is no
+/// toward the eye, or on top of them. None if it is free. What holds it and the eye, as a room does, is no
 /// obstacle.
 Vec3 freedFrom(const std::vector<Box3>& others, const Box3& own, const CameraFrame& camera,
                const Vec3& updir);

@@ -13,6 +13,7 @@ class OneFrame {
   /// False if the event has to wait for the next frame.
   bool take(const InputEvent& event) {
     if (!fits(event)) return false;
+    if (event.kind == Kind::pointer) moved_ = true;
     if (event.kind == Kind::button) button_ = true;
     if (event.kind == Kind::wheel) wheel_ = true;
     if (event.kind == Kind::focus) focus_ = true;
@@ -31,7 +32,10 @@ class OneFrame {
     switch (event.kind) {
       case Kind::pointer:
       case Kind::leave: return !mouse;
-      case Kind::button: return !mouse && !keys;
+      case Kind::button:
+        // Dear ImGui presses what lies under others, as a tab does, only if the frame before saw the pointer
+        // there.
+        return !mouse && !keys && !(event.down && moved_);
       case Kind::wheel: return !button_ && !keys;
       case Kind::focus: return !any_;
       case Kind::character: return !mouse && !command_;
@@ -44,7 +48,8 @@ class OneFrame {
     return !mouse && !command_ && !(event.isCommand() && text_);
   }
 
-  bool button_ = false, wheel_ = false, command_ = false, text_ = false, focus_ = false, any_ = false;
+  bool moved_ = false, button_ = false, wheel_ = false, command_ = false, text_ = false, focus_ = false,
+       any_ = false;
   std::vector<int> pressed_;  // keys that must be seen down; those that only wrote text need not
 };
 

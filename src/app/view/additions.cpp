@@ -73,11 +73,12 @@ Scene sceneOfShape(std::string_view name) {
   Shape shape(rowCalled<ShapeType>(name));
   fill(shape);
   constexpr Box3 kNear{{-1, -1, -1}, {1, 1, 1}};
-  const Box3 box = drawnBounds(shape, kNear);
+  const Affine turn = upright(name, {0, 1, 0});
+  const Box3 box = turn * drawnBounds(shape, kNear);
   const Real longest = maxComponent(box.size());
   const Affine placed = box.empty() || !(longest > 0) ? Affine()
                                                       : Affine::scaling(Vec3(1, 1, 1) * (2 / longest)) *
-                                                            Affine::translation(-box.center());
+                                                            Affine::translation(-box.center()) * turn;
   scene.objects.push_back(
       {"", std::move(shape), placed, static_cast<std::uint32_t>(scene.materials.size() - 1), {}});
   return scene;

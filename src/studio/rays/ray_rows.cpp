@@ -5,7 +5,7 @@
 namespace trace::studio {
 
 ImVec4 rayColour(const Studio& studio, const TracedPixel& pixel, int ray) {
-  const Color c = colourOf(pixel.looks(ray), studio.theme.light);
+  const Color c = colourOfWords(pixel.looks(ray), studio.theme.light);
   return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1};
 }
 

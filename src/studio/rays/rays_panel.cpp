@@ -234,6 +234,7 @@ void updateRays(Studio& studio) {
   if (shown->x != view.x || shown->y != view.y || count != view.rays) {
     view.step = -1;
     view.playsAt = -1;
+    if (view.differs && !inspector.pinned()) studio.raysTab = "Tree";
     const int fault = shown->why.ray;
     view.selected = fault >= 0 && fault < static_cast<int>(count) ? fault : count > 0 ? 0 : -1;
     view.scrollTo = view.selected;
@@ -285,10 +286,10 @@ void drawNote(const Studio& studio, const TracedPixel& pixel) {
         "among this pixel's rays");
 }
 
-/// The head and the rows that a low window shows of the tree.
-float heightOfTree() {
-  constexpr float kRows = 8;
-  return (kRows + 1) * (ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y) + 2;
+/// The head and the rows that a low window shows of a tree with so many rays.
+float heightOfTree(std::size_t rays) {
+  const auto rows = static_cast<float>(std::clamp<std::size_t>(rays, 3, 6));
+  return (rows + 1) * (ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y) + 2;
 }
 
 }  // namespace
@@ -306,7 +307,8 @@ void drawRays(Studio& studio) {
   const float share = !pixel ? 0.88f : low ? 0.34f : view.pyramid.open ? 0.38f : 0.45f;
   float space = std::max(least, share * height);
   if (pixel && low && view.between > 0)
-    space = std::clamp(height - view.between - heightOfTree(), std::min(characters(16), space), space);
+    space =
+        std::clamp(height - view.between - heightOfTree(view.rays), std::min(characters(16), space), space);
   ImGui::BeginChild("space", {0, space}, false, ImGuiWindowFlags_NoScrollWithMouse);
   drawSpace(studio);
   ImGui::EndChild();
@@ -326,7 +328,7 @@ void drawRays(Studio& studio) {
     drawWhy(studio, *pixel);
     drawHead(studio, *pixel);
     if (!view.pyramid.open) drawNote(studio, *pixel);  // the pyramid is of the whole picture
-    view.pyramid.open = false;
+    view.pyramid.open = view.differs = false;
     if (ImGui::BeginTabBar("about rays")) {
       const auto tab = [&](const char* name, void (*draw)(Studio&, const TracedPixel&)) {
         const ImGuiTabItemFlags flags = studio.raysTab == name ? ImGuiTabItemFlags_SetSelected : 0;
@@ -344,7 +346,10 @@ void drawRays(Studio& studio) {
       tab("Ray", drawNumbers);
       if (hasTrait(pixel->session->settings(), Trait::joinsEnds)) tab("Ways", drawWays);
       if (showsStrategies(pixel->session->settings())) tab("Pyramid", drawPyramid);
-      tab("Difference", drawDifference);
+      tab("Difference", [](Studio& s, const TracedPixel& traced) {
+        s.rays.differs = true;
+        drawDifference(s, traced);
+      });
       ImGui::EndTabBar();
     }
   }

@@ -59,9 +59,12 @@ void drawSum(Studio& studio, const TracedPixel& pixel) {
   const int step = studio.rays.step;
   const float side = ImGui::GetTextLineHeight();
   const auto swatch = [&](const char* id, const std::string& name, const Color& color) {
+    ImGui::PushStyleColor(ImGuiCol_Border,
+                          ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));  // dark ones are seen
     const bool pressed =
         ImGui::ColorButton(id, swatchColour(color, settings),
                            ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop, {side, side});
+    ImGui::PopStyleColor();
     const bool over = ImGui::IsItemHovered();
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     ImGui::TextUnformatted(name.c_str());

@@ -55,26 +55,51 @@ Middle middleOf(const Session& session) {
   return middle;
 }
 
+/// The box of an object in the world; an endless one is everywhere.
+Box3 boxOf(const Object& object) {
+  const Box3 own = drawnBounds(object.shape, kEverywhere);
+  return own.empty() || own.unbounded() ? own : object.worldFromObject * own;
+}
+
+/// Boxes of the objects that have an end, those too that no render has seen yet.
+std::vector<Box3> boxesOf(const Scene& scene) {
+  std::vector<Box3> boxes;
+  for (const Object& object : scene.objects)
+    if (const Box3 box = boxOf(object); !box.empty() && !box.unbounded()) boxes.push_back(box);
+  return boxes;
+}
+
 /// On what the camera looks at, and in no other object.
 Affine inSight(const Studio& studio, const Shape& shape) {
   const auto session = studio.workspace.render.session();
   if (!session) return {};
   const Middle middle = middleOf(*session);
   const Vec3& updir = session->scene().camera.updir;
-  const Box3 bounds = drawnBounds(shape, kEverywhere);
+  const Affine turn = upright(shape.keyword(), updir);
+  const Box3 own = drawnBounds(shape, kEverywhere);
+  const Box3 bounds = own.empty() || own.unbounded() ? own : turn * own;
+  const std::vector<Box3> others = boxesOf(studio.workspace.document.scene());
+  const auto lookAt = [&](const Vec2& place) -> std::optional<SeenObject> {
+    const World& world = session->world();
+    const Ray ray = middle.camera.ray(place);
+    Statistics statistics;
+    const auto found = world.closest(ray, Faces::both, statistics);
+    if (!found) return {};
+    const std::vector<Object>& objects = session->scene().objects;
+    return SeenObject{Hit(world, ray, *found).surface,
+                      found->object < objects.size() ? boxOf(objects[found->object]) : Box3{}};
+  };
+  if (!bounds.empty() && !bounds.unbounded())
+    if (const auto placed = placedAmong(bounds, middle.camera, updir, others, lookAt)) return *placed * turn;
   const Affine first = placedInSight(bounds, middle.camera, updir, middle.there, middle.ahead);
-  if (bounds.empty() || bounds.unbounded()) return first;
+  if (bounds.empty() || bounds.unbounded()) return first * turn;
   const Vec3 down = letDown(first * bounds, updir, [&](const Ray& ray) -> std::optional<Real> {
     Statistics statistics;
     const auto found = session->world().closest(ray, Faces::both, statistics);
     return found ? std::optional(found->t) : std::nullopt;
   });
   const Affine placed = Affine::translation(down) * first;
-  std::vector<Box3> others;
-  for (const Object& object : session->scene().objects)
-    if (const Box3 box = drawnBounds(object.shape, kEverywhere); !box.empty() && !box.unbounded())
-      others.push_back(object.worldFromObject * box);
-  return Affine::translation(freedFrom(others, placed * bounds, middle.camera, updir)) * placed;
+  return Affine::translation(freedFrom(others, placed * bounds, middle.camera, updir)) * placed * turn;
 }
 
 /// Above and to the left of what the camera looks at, or less far where something is in between.
@@ -274,7 +299,7 @@ void drawAdditions(Studio& studio) {
   ImGui::EndChild();
   const std::string help = !cards.first ? "nothing of that name"
                            : !cards.over
-                               ? "a new object stands on what the middle of the picture shows"
+                               ? "a new object stands on what the picture shows, near its middle"
                                : std::string(cards.over->name) + ": " + std::string(cards.over->help);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   rowName(help);

@@ -74,6 +74,7 @@ struct RaysView {
   float between = 0;       ///< height of what stood between the view in space and the tabs in the last frame
   int scrollTo = -1;       ///< ray whose row the table is to show
   int step = -1;           ///< rays shown in the order of tracing; -1: all
+  bool differs = false;    ///< the tab Difference is in front
   std::vector<char> closed;  ///< nodes whose children the table hides
 
   std::vector<VisitedBox> boxes;  ///< boxes of the hierarchies, by the selected ray
@@ -135,11 +136,15 @@ struct RaysView {
   bool grows(int node) const { return grown < 1 && node == step - 1; }
 };
 
-/// In a dark window the colours of the table are lightened; the grey of camera rays is nearly white there,
-/// for many surfaces are grey.
-inline Color colourOf(RayLooks looks, bool light) {
-  return light ? look(looks).color
-               : lerp(looks == RayLooks::camera ? 0.9 : 0.35, look(looks).color, Color(1));
+/// The colour of lines in space, lighter than that of a picture on paper; that of camera rays is nearly
+/// white, for many surfaces are grey. A black rim shows them on light ones.
+inline Color colourOf(RayLooks looks) {
+  return lerp(looks == RayLooks::camera ? 0.9 : 0.35, look(looks).color, Color(1));
+}
+/// The colour of words about a ray; in a light window dark enough to be read.
+inline Color colourOfWords(RayLooks looks, bool light) {
+  constexpr Real kDarker = 0.4;
+  return light ? look(looks).color * (1 - kDarker) : colourOf(looks);
 }
 
 struct Studio;

@@ -145,7 +145,7 @@ void addArrow(const RaySegment& segment, const Vec3& eye, const Color& c, float 
 void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, const Vec3& eye, Pen& pen) {
   const RaysView& view = studio.rays;
   const Real whole = std::max(maxComponent(pixel.tree().nodes.front().weight), 1e-30);
-  const Color rim(studio.theme.light ? 1 : 0);
+  const Color rim(0);
   for (const RaySegment& segment : pixel.segments) {
     const int i = segment.node;
     const RayNode& node = pixel.tree().nodes[static_cast<std::size_t>(i)];
@@ -153,14 +153,14 @@ void addRays(const Studio& studio, const TracedPixel& pixel, bool pinned, const 
         (!pinned && (!view.inStep(i) || view.grows(i))))
       continue;
     const bool hot = !pinned && (i == view.selected || i == view.step - 1);
-    const Color colour = pinned ? Color(0.6) : colourOf(segment.looks, studio.theme.light);
+    const Color colour = pinned ? Color(0.6) : colourOf(segment.looks);
     const auto& way = view.wayRays;
     const bool chosen = !pinned && std::find(way.begin(), way.end(), i) != way.end();
     const bool faint = pinned || (!way.empty() && !chosen);
     const auto weight =
         chosen ? 1.0f
                : static_cast<float>(std::sqrt(std::clamp(maxComponent(node.weight) / whole, 0.0, 1.0)));
-    const Color tint = hot ? lerp(0.35, colour, Color(studio.theme.light ? 0 : 1)) : colour;
+    const Color tint = hot ? lerp(0.35, colour, Color(1)) : colour;
     const float opacity = pinned ? 0.6f : faint ? 0.25f : 1, width = 1.0f + 3.0f * weight + (hot ? 1.0f : 0);
     if (!pinned && !faint)  // a rim, so that it is seen on any surface
       pen.line(segment.from, segment.to, rim, 0.6f, width + 2, segment.leaves ? 6.0f : 0);

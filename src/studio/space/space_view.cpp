@@ -24,9 +24,9 @@
 namespace trace::studio {
 namespace {
 
-constexpr float kNear = 6;          // pixels from a ray that count as on it
-constexpr float kHidden = 0.6f;     // opacity of what lies behind surfaces
-constexpr float kNamedLegend = 38;  // characters across a view whose legend has names
+constexpr float kNear = 6;            // pixels from a ray that count as on it
+constexpr float kHidden = 0.6f;       // opacity of what lies behind surfaces
+constexpr float kNamedLegend = 0.6f;  // largest share of a view that names in its legend may take
 
 /// Asks for the scene's triangles when they have changed, and takes those that have come. Those of another
 /// scene are gone at once.
@@ -94,10 +94,10 @@ void frameRays(Studio& studio) {
   const bool shown = pixel && pixel->x == view.clickedX && pixel->y == view.clickedY;
   if (!view.frameDue || !shown || ImGui::IsMouseDown(0)) return;
   view.frameDue = false;
-  constexpr Real kFar = 4;  // times the size of what the camera sees
+  constexpr Real kFar = 6, kLeast = 1.2;  // times the size of what the camera sees
   Box3 box = boundsOf(pixel->segments, kFar * view.size);
   if (view.fromCamera || box.empty()) return;
-  const Vec3 least = Vec3(1, 1, 1) * (0.2 * view.size);  // a single place is seen with its surroundings
+  const Vec3 least = Vec3(1, 1, 1) * (kLeast * view.size);  // rays are seen with their surroundings
   const Vec3 room{std::max(0.0, least.x - box.size().x / 2), std::max(0.0, least.y - box.size().y / 2),
                   std::max(0.0, least.z - box.size().z / 2)};
   box = {box.low - room, box.high + room};
@@ -225,7 +225,7 @@ void drawOver(const Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 si
               const RaySegment& segment) {
   const auto seen = onScreen(studio.rays, matrix, low, size, segment);
   if (!seen) return;
-  const Color c = lerp(0.5, colourOf(segment.looks, studio.theme.light), Color(studio.theme.light ? 0 : 1));
+  const Color c = lerp(0.5, colourOf(segment.looks), Color(1));
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.PushClipRect(low, {low.x + size.x, low.y + size.y}, true);
   const auto point = [](const Vec2& p) { return ImVec2(static_cast<float>(p.x), static_cast<float>(p.y)); };
@@ -315,7 +315,7 @@ void drawLightsBeyond(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 
 }
 
 /// The name of the ray under the cursor and the equation of its light, at the top of the view, or at its
-/// bottom where the cursor is at the top: so it covers nothing near the ray.
+/// bottom where the cursor or the legend is at the top: so it covers nothing near the ray.
 void drawEquation(const Studio& studio, ImVec2 low, ImVec2 size, int ray) {
   const TracedPixel& pixel = *shownPixel(studio);
   const ImVec2 pad = ImGui::GetStyle().FramePadding;
@@ -325,7 +325,10 @@ void drawEquation(const Studio& studio, ImVec2 low, ImVec2 size, int ray) {
                            inLines(equationOf(pixel.tree(), pixel.scene(), ray), room);
   const ImVec2 wide = ImGui::CalcTextSize(text.c_str());
   const float high = wide.y + 2 * pad.y, gap = ImGui::GetTextLineHeight();
-  const bool below = ImGui::GetIO().MousePos.y < low.y + pad.y + high + gap;
+  const float mouse = ImGui::GetIO().MousePos.y;
+  const bool aboveFree = mouse >= low.y + pad.y + high + gap,
+             belowFree = mouse <= low.y + size.y - pad.y - high - gap;
+  const bool below = !aboveFree || (belowFree && isUpper(studio.rays.legendCorner));
   const ImVec2 at{low.x + pad.x, below ? low.y + size.y - pad.y - high : low.y + pad.y};
   const ImVec4 plate = ImGui::GetStyleColorVec4(ImGuiCol_WindowBg);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -486,16 +489,20 @@ void drawLegend(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size) 
   const float pad = ImGui::GetStyle().FramePadding.x;
   const float fit = std::floor((size.y - 2 * pad) / line);
   if (classes == 0 || fit < 1) return;
+  const auto textOf = [&](std::size_t i, bool withNames) {
+    return (withNames ? std::string(kRayLooks[i].name) + "  " : "") + std::to_string(count[i]);
+  };
   const auto columns = std::ceil(static_cast<float>(classes) / fit);
   const auto rows = std::ceil(static_cast<float>(classes) / columns);
-  const bool named = columns == 1 && size.x >= characters(kNamedLegend);
-  const auto textOf = [&](std::size_t i) {
-    return (named ? std::string(kRayLooks[i].name) + "  " : "") + std::to_string(count[i]);
-  };
   const float side = ImGui::GetTextLineHeight() * 0.7f;
-  float widest = 0;
-  for (std::size_t i = 0; i < count.size(); ++i)
-    if (count[i] > 0) widest = std::max(widest, ImGui::CalcTextSize(textOf(i).c_str()).x);
+  const auto widestOf = [&](bool withNames) {
+    float widest = 0;
+    for (std::size_t i = 0; i < count.size(); ++i)
+      if (count[i] > 0) widest = std::max(widest, ImGui::CalcTextSize(textOf(i, withNames).c_str()).x);
+    return widest;
+  };
+  const bool named = columns == 1 && widestOf(true) + side + 3 * pad <= kNamedLegend * size.x;
+  const float widest = widestOf(named);
   const float column = widest + side + 3 * pad;
   const Vec2 all{size.x, size.y}, wide{columns * column + 2 * pad, rows * line + 2 * pad};
   if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2))
@@ -510,9 +517,9 @@ void drawLegend(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size) 
   ImVec2 at = first;
   for (std::size_t i = 0; i < count.size(); ++i) {
     if (count[i] == 0) continue;
-    const std::string text = textOf(i);
+    const std::string text = textOf(i, named);
     const ImVec2 letters = ImGui::CalcTextSize(text.c_str());
-    const Color c = colourOf(static_cast<RayLooks>(i), studio.theme.light);
+    const Color c = colourOf(static_cast<RayLooks>(i));
     ImGui::SetCursorScreenPos(at);
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::InvisibleButton("class", {letters.x + side + 3 * pad, line}))
@@ -527,7 +534,8 @@ void drawLegend(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size) 
         ImVec4(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), 1));
     const ImVec2 square{at.x + pad, at.y + (line - side) / 2};
     if (on) list.AddRectFilled(square, {square.x + side, square.y + side}, tint, 2);
-    list.AddRect(square, {square.x + side, square.y + side}, tint, 2);
+    list.AddRect(square, {square.x + side, square.y + side},
+                 on ? ImGui::GetColorU32(ImGuiCol_TextDisabled) : tint, 2);
     list.AddText({square.x + side + pad, at.y + (line - letters.y) / 2},
                  ImGui::GetColorU32(on ? ImGuiCol_Text : ImGuiCol_TextDisabled), text.c_str());
     at.y += line;

@@ -13,6 +13,9 @@ struct ViewLine {
 };
 
 enum class ViewCorner { lowerLeft, lowerRight, upperRight, upperLeft };
+constexpr bool isUpper(ViewCorner corner) {
+  return corner == ViewCorner::upperRight || corner == ViewCorner::upperLeft;
+}
 
 /// The upper left corner of an overlay of that size in a corner of the view.
 Vec2 placeIn(ViewCorner corner, const Vec2& view, const Vec2& overlay);

@@ -64,7 +64,7 @@ Phong plainPhong(const Material& material) {
 }
 
 Real opacityOf(const Phong& m) {
-  constexpr Real kLeast = 0.12;  // opacity of the clearest glass, which must stay visible
+  constexpr Real kLeast = 0.2;  // opacity of the clearest glass, which must stay visible
   return m.transmits() ? std::clamp(1 - maxComponent(m.transmissive), kLeast, 1.0) : 1;
 }
 

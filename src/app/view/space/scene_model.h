@@ -40,8 +40,8 @@ struct SceneModel {
   Real scale = 1;
   /// Position and normal, six floats for each corner of a triangle.
   std::vector<float> corners;
-  /// Corners as a graphics card wants them, which is slow by corners; and fewer triangles, about kFewTriangles, for
-  /// frames that must not be late.
+  /// Corners as a graphics card wants them, which is slow by corners; and fewer triangles, about
+  /// kFewTriangles, for frames that must not be late.
   SharedCorners shared;
   static constexpr std::size_t kFewTriangles = 16000;
   std::vector<ScenePart> parts;
