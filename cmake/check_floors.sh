@@ -36,6 +36,17 @@ for list in material texture light; do
       ;;
   esac
 done
+# A struct of these lists is seen by the list and by few others: each is a unit that its change compiles again.
+mostSeers=7
+manySeers='shading/materials/phong.h shading/materials/subsurface.h shading/textures/image_map.h'  # that formats make
+while read -r header; do
+  seers="$(grep -rlF "#include \"$header\"" src --include='*.h' --include='*.cpp' | grep -v '^src/studio/' | sort)"
+  if (($(wc -l <<<"$seers") > mostSeers)) && [[ " $manySeers " != *" $header "* ]]; then
+    echo "$header is included by more than $mostSeers files: ask the row, or a field by its keyword; for lights shading/lights/plain_lights.h"
+    echo "$seers"
+    exit 1
+  fi
+done < <(sed -nE 's/^#include "(shading\/(lights|materials|textures)\/[a-z_]+\.h)".*/\1/p' src/shading/{light,material,texture}_list.h)
 seers="$(grep -rlE '^#include "geometry/shape_list.h"' src tests bench | sort | tr '\n' ' ')"
 if [[ "$seers" != 'src/geometry/shape_table.cpp src/geometry/traced.cpp src/render/world/world_queries.cpp ' ]]; then
   echo "only the table of shapes, their traced form and the World's queries include geometry/shape_list.h, not: $seers"

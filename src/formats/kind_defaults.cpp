@@ -15,7 +15,7 @@
 #include "scene/groups.h"
 #include "scene/picture_size.h"
 #include "scene/quality.h"
-#include "shading/lights/directional_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace {
 namespace {
@@ -63,9 +63,7 @@ LightSource sun(const Camera& camera, Real size) {
   const Real flat = length(along);
   along = flat > 1e-3 ? along / flat : Vec3{0, 0, -1};
   const Vec3 right = cross(along, {0, 1, 0});
-  return {DirectionalLight{.direction = normalize(along * 0.75 + right * 0.55 + Vec3{0, -1, 0}),
-                           .color = {2.4, 2.25, 2},
-                           .size = size},
+  return {directionalLight(normalize(along * 0.75 + right * 0.55 + Vec3{0, -1, 0}), {2.4, 2.25, 2}, size),
           {}};
 }
 
@@ -183,7 +181,7 @@ void addKindChoices(Scene& scene, const SourcePlace& place) {
 LightSource keyLight(const Camera& camera) {
   constexpr Real kSize = 12;
   LightSource light = sun(camera, kSize);
-  light.light.edit<DirectionalLight>()->color = Color(1.6);
+  *editableValue<Color>(light.light, "color") = Color(1.6);
   return light;
 }
 

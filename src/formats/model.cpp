@@ -11,8 +11,7 @@
 #include "geometry/shapes/solids/csg_tree.h"
 #include "geometry/traced.h"
 #include "math/elementary.h"
-#include "shading/lights/ambient_light.h"
-#include "shading/lights/directional_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace {
 namespace {
@@ -254,10 +253,9 @@ std::vector<LightSource> plainLights(const Camera& camera) {
   const CameraFrame axes = frame(camera, CameraAxes::orthonormal);
   const Vec3 right = normalize(axes.right), up = normalize(axes.up), look = normalize(axes.look);
   const auto light = [&](Real x, Real y, Real brightness) {
-    return LightSource{
-        DirectionalLight{.direction = normalize(look + right * x + up * y), .color = Color(brightness)}, {}};
+    return LightSource{directionalLight(normalize(look + right * x + up * y), Color(brightness)), {}};
   };
-  return {light(0.6, -0.9, 0.85), light(-0.9, -0.1, 0.3), {AmbientLight{.color = Color(0.12)}, {}}};
+  return {light(0.6, -0.9, 0.85), light(-0.9, -0.1, 0.3), {ambientLight(Color(0.12)), {}}};
 }
 
 bool isPlainView(const Scene& scene) { return scene.lights == plainLights(scene.camera); }

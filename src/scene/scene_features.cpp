@@ -10,7 +10,7 @@
 
 #include "scene/scene.h"
 #include "shading/lights/goniometric_light.h"
-#include "shading/lights/point_light.h"
+#include "shading/lights/plain_lights.h"
 #include "shading/medium.h"
 
 namespace trace {
@@ -108,13 +108,14 @@ bool castsShadows(const LightLinks& light, const EnumSet<SceneFeature>& off) {
 }
 
 std::optional<Light> lightWithout(const Light& light, const EnumSet<SceneFeature>& off) {
-  if (light.type().starts != LightOrigin::ball || light.is<PointLight>() || !isOff(light.keyword(), off))
-    return {};
   Light point;
+  if (light.type().starts != LightOrigin::ball || light.keyword() == point.keyword() ||
+      !isOff(light.keyword(), off))
+    return {};
   takeFields(point, light);
   if (const auto* measured = light.as<GoniometricLight>())
     if (measured->perCandela > 0 && measured->file.data)
-      point.edit<PointLight>()->color *= Color(measured->perCandela * measured->file.data->brightest());
+      *editableValue<Color>(point, "color") *= Color(measured->perCandela * measured->file.data->brightest());
   return point;
 }
 

@@ -21,7 +21,7 @@
 #include "scene/groups.h"
 #include "scene/integrators.h"
 #include "scene/options.h"
-#include "shading/lights/point_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace {
 namespace {
@@ -271,13 +271,8 @@ std::optional<Cure> turnedSun(const Scene& scene, const Settings& settings, cons
 /// A light beside the eye, where nothing that is seen is in its way. Automatic exposure follows it.
 std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, const World& world,
                                   const std::vector<char>& seen, bool measures) {
-  PointLight light;
-  light.position = world.camera().eye;
-  light.color = Color(1);
-  light.constant = 1;
-  light.linear = light.quadratic = 0;
   LightSource source;
-  source.light = light;
+  source.light = pointLight(world.camera().eye, Color(1), {});
   std::vector<LightSource> lights = scene.lights;
   Lit lit{seenWith(scene, settings, world, lights, seen), {}};
   lights.push_back(source);
@@ -286,7 +281,7 @@ std::optional<Cure> lightAtTheEye(const Scene& scene, const Settings& settings, 
   const auto factor = factorFor(lit, developmentOf(settings));
   if (!factor) return {};
   const bool ray = scene.format == "ray";
-  const std::string position = "point_light { position = " + rounded(light.position);
+  const std::string position = "point_light { position = " + rounded(world.camera().eye);
   const std::string strength = "; color = " + rounded(Color(*factor)) +
                                "; constant_attenuation_coeff = 1; quadratic_attenuation_coeff = 0;";
   return Cure{SourcePlace{.file = scene.file},

@@ -12,7 +12,7 @@
 #include "scene/groups.h"
 #include "scene/options.h"
 #include "shading/bsdf.h"
-#include "shading/lights/ambient_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace {
 namespace {
@@ -260,9 +260,8 @@ class Search {
 
   /// "lamp and sun", or "all three lights" where there are no more.
   std::string lightsText(const std::vector<std::uint32_t>& lights) const {
-    const auto all = std::count_if(scene_.lights.begin(), scene_.lights.end(), [](const LightSource& source) {
-      return !source.light.is<AmbientLight>();
-    });
+    const auto all = std::count_if(scene_.lights.begin(), scene_.lights.end(),
+                                   [](const LightSource& source) { return !isAmbient(source.light); });
     if (lights.size() > 2 && static_cast<std::ptrdiff_t>(lights.size()) == all)
       return "all " + (all == 3 ? "three" : std::to_string(all)) + " lights";
     std::vector<std::string> names;
@@ -431,7 +430,7 @@ namespace {
 
 bool litByEmissiveAlone(const Scene& scene) {
   return std::all_of(scene.lights.begin(), scene.lights.end(),
-                     [](const LightSource& source) { return source.light.is<AmbientLight>(); }) &&
+                     [](const LightSource& source) { return isAmbient(source.light); }) &&
          std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
            return object.material < scene.materials.size() &&
                   !isBlack(phongOf(scene.materials[object.material].model).emissive);

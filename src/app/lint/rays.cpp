@@ -10,7 +10,7 @@
 #include "math/elementary.h"
 #include "math/perpendicular.h"
 #include "render/samples/pixel.h"
-#include "shading/lights/spot_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace {
 namespace {
@@ -77,14 +77,14 @@ Real strongestAround(const World& world, const Light& light, const Vec3& positio
       strongest = std::max(strongest, maxComponent(arriving->intensity()));
   };
   for (int i = 0; i < kDirections; ++i) look(direction(i));
-  if (const auto* spot = light.as<SpotLight>()) look(normalize(spot->direction));
+  if (isSpot(light)) look(normalize(*light.direction()));
   return strongest;
 }
 
-bool shinesOnSomething(const World& world, const SpotLight& light) {
+bool shinesOnSomething(const World& world, const LightGeometry& light) {
   constexpr int kRays = 200;
-  const Vec3 axis = normalize(light.direction), right = perpendicularTo(axis), up = cross(right, axis);
-  const Real least = math::cos(light.angle * kPi / 180);
+  const Vec3 axis = light.cone->axis, right = perpendicularTo(axis), up = cross(right, axis);
+  const Real least = light.cone->cosine;
   Statistics uncounted;
   for (int i = 0; i < kRays; ++i) {  // spread over the cone as over a sphere
     const Real z = 1 - (1 - least) * i / kRays, r = std::sqrt(max(0, 1 - z * z));

@@ -9,7 +9,7 @@
 
 namespace trace {
 
-struct SpotLight;
+struct LightGeometry;
 
 /// The objects that enclose the point on all sides: a ray from it crosses each an odd number of times, in
 /// every one of many directions. So an open surface encloses nothing.
@@ -24,7 +24,7 @@ bool isShell(const World& world, std::uint32_t object, const Vec3& point);
 Real strongestAround(const World& world, const Light& light, const Vec3& position);
 
 /// Something is in the cone of the light, near or far.
-bool shinesOnSomething(const World& world, const SpotLight& light);
+bool shinesOnSomething(const World& world, const LightGeometry& light);
 
 /// The share of a mesh's faces whose front looks to the inside of the mesh: seen from there, the ray comes
 /// through an odd number of the mesh's surfaces. 0 for open surfaces.

@@ -9,7 +9,7 @@
 #include "image/development/tone.h"
 #include "render/integrators/make_integrator.h"
 #include "render/samples/pixel.h"
-#include "shading/lights/spot_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace {
 namespace {
@@ -86,7 +86,7 @@ class Surveyor {
  public:
   Surveyor(const Scene& scene, const World& world) : world_(world) {
     for (const LightSource& source : scene.lights)
-      if (const auto* spot = source.light.as<SpotLight>()) spots_.push_back(*spot);
+      if (isSpot(source.light)) spots_.push_back(source.light);
     survey_.objects.resize(scene.objects.size());
     survey_.lights.resize(scene.lights.size());
     survey_.picture = Picture(kWidth, kHeight);
@@ -131,7 +131,7 @@ class Surveyor {
     seen.direct += std::any_of(node.terms.begin(), node.terms.end(), [](const Term& term) {
       return term.light && !isBlack(term.factor * term.value);
     });
-    for (const SpotLight& spot : spots_)
+    for (const Light& spot : spots_)
       seen.outOfCone += !spot.illuminate(node.hit->surface.point, world_.rules());
     for (const Term& term : node.terms) {
       seen.unlinked += term.dark && term.dark->why == DarkTerm::Why::unlinked;
@@ -204,7 +204,7 @@ class Surveyor {
   }
 
   const World& world_;
-  std::vector<SpotLight> spots_;
+  std::vector<Light> spots_;
   Real brightestSky_ = 0;
   Survey survey_;
 };

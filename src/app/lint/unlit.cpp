@@ -8,7 +8,7 @@
 #include "app/advice/missing_caustic.h"
 #include "app/lint/checks.h"
 #include "scene/integrators.h"
-#include "shading/lights/spot_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace::lint_checks {
 
@@ -33,9 +33,9 @@ bool spotsOnNothing(const LintScene& s, Findings& findings) {
   bool found = false;
   for (std::size_t i = 0; i < s.scene.lights.size(); ++i) {
     const LightSource& source = s.scene.lights[i];
-    const auto* spot = source.light.as<SpotLight>();
-    const bool isOff = spot && maxComponent(spot->color) == 0;
-    if (!spot || isOff || s.survey.lights[i].places > 0 || shinesOnSomething(s.world, *spot)) continue;
+    if (!isSpot(source.light) || isBlack(*source.light.color()) || s.survey.lights[i].places > 0 ||
+        shinesOnSomething(s.world, geometryOf(source.light)))
+      continue;
     found = true;
     warn(findings, "unlit", source.place, "the spot light shines on nothing: no object is in its cone",
          "turn it to the object that it should light, or give it a larger angle");

@@ -22,10 +22,7 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
 #include "geometry/shapes/solids/sphere.h"
-#include "shading/lights/ambient_light.h"
-#include "shading/lights/directional_light.h"
-#include "shading/lights/point_light.h"
-#include "shading/lights/spot_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace {
 namespace {
@@ -86,7 +83,7 @@ class ComposerReader {
     camera();
     for (const cf::Lamp& lamp : content_.lamps) add(lamp);
     if (content_.lamps.empty()) scene_.lights = plainLights(scene_.camera);
-    scene_.lights.push_back({AmbientLight{Color(1)}, place()});
+    scene_.lights.push_back({ambientLight(Color(1)), place()});
     scene_.choices.push_back({"like", "uw1998", place()});
     warnings_.report(messages_);
     return std::move(scene_);
@@ -114,7 +111,7 @@ class ComposerReader {
   }
 
   void add(const cf::Lamp& lamp) {
-    constexpr Real kConstant = 0.25, kLinear = 0.1, kQuadratic = 0.01;
+    constexpr Fading kFading{0.25, 0.1, 0.01};
     if (lamp.kind != cf::Lamp::Kind::point && !(length(lamp.direction) > 0))
       return messages_.warn(place(), "a light without a direction is left out");
     const Color& c = lamp.color;
@@ -125,29 +122,20 @@ class ComposerReader {
                      "cutOffAngle: expected above 0 and at most pi, found " + toText(lamp.cutOffAngle));
     if (lamp.kind == cf::Lamp::Kind::spot && lamp.dropOffRate < 0)
       warnings_.warn(place(), "dropOffRate: expected at least 0, found " + toText(lamp.dropOffRate));
-    switch (lamp.kind) {
-      case cf::Lamp::Kind::point: {
-        PointLight light{lamp.position, lamp.color};
-        light.constant = kConstant;
-        light.linear = kLinear;
-        light.quadratic = kQuadratic;
-        scene_.lights.push_back({light, place()});
-        break;
+    const auto light = [&]() -> Light {
+      switch (lamp.kind) {
+        case cf::Lamp::Kind::point: return pointLight(lamp.position, lamp.color, kFading);
+        case cf::Lamp::Kind::directional: return directionalLight(lamp.direction, lamp.color);
+        case cf::Lamp::Kind::spot: break;
       }
-      case cf::Lamp::Kind::directional:
-        scene_.lights.push_back({DirectionalLight{lamp.direction, lamp.color}, place()});
-        break;
-      case cf::Lamp::Kind::spot: {
-        SpotLight light{.position = lamp.position, .direction = lamp.direction, .color = lamp.color};
-        light.angle = light.fullAngle = std::clamp(lamp.cutOffAngle * 180 / kPi, 0.0, 180.0);
-        light.exponent = std::max(0.0, cf::kShininessScale * lamp.dropOffRate);
-        light.constant = kConstant;
-        light.linear = kLinear;
-        light.quadratic = kQuadratic;
-        scene_.lights.push_back({light, place()});
-        break;
-      }
-    }
+      const Real angle = std::clamp(lamp.cutOffAngle * 180 / kPi, 0.0, 180.0);
+      return spotLight(lamp.position, lamp.direction, lamp.color,
+                       {.angle = angle,
+                        .fullAngle = angle,
+                        .exponent = std::max(0.0, cf::kShininessScale * lamp.dropOffRate)},
+                       kFading);
+    };
+    scene_.lights.push_back({light(), place()});
   }
 
   // --- materials ---

@@ -4,8 +4,7 @@
 
 #include "formats/inventor/inventor_reader.h"
 #include "formats/model.h"
-#include "shading/lights/ambient_light.h"
-#include "shading/lights/directional_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace {
 namespace inventor {
@@ -43,8 +42,8 @@ void Reader::finish() {
     scene_.camera.fov = 45;
   }
   if (scene_.lights.empty())  // the headlight of every viewer
-    scene_.lights.push_back({DirectionalLight{scene_.camera.viewdir, Color(1)}, place});
-  if (!isBlack(ambient_)) scene_.lights.push_back({AmbientLight{ambient_}, place});
+    scene_.lights.push_back({trace::directionalLight(scene_.camera.viewdir, Color(1)), place});
+  if (!isBlack(ambient_)) scene_.lights.push_back({ambientLight(ambient_), place});
   for (const auto& [option, value] : {std::pair<std::string, std::string>{"shininess-scale", "128"},
                                       {"pixel-position", "center"},
                                       {"mirror-default", "zero"}})

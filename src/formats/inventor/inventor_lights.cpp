@@ -8,9 +8,7 @@
 #include "formats/inventor/inventor_sky.h"
 #include "formats/inventor/inventor_transform.h"
 #include "math/elementary.h"
-#include "shading/lights/directional_light.h"
-#include "shading/lights/point_light.h"
-#include "shading/lights/spot_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace::inventor {
 
@@ -35,23 +33,20 @@ Color Reader::shining(const Values& v) {
   return shine(color, v.number("intensity", 1));
 }
 
-template <class L>
-void Reader::addLight(const Values& v, L light) {
-  if constexpr (requires { light.constant; }) {
-    Vec3 fading = vrml2_ ? v.vector("attenuation", {1, 0, 0}) : fading_;
-    if (fading == Vec3{}) fading = {1, 0, 0};
-    light.constant = fading.x;
-    light.linear = fading.y;
-    light.quadratic = fading.z;
-    constexpr Real kDefaultRadius = 100;
-    if (vrml2_ && v.number("radius", kDefaultRadius) != kDefaultRadius)
-      warn(v.node(), "the radius of a light is ignored: it lights objects farther away too", "radius");
-  }
-  if constexpr (requires { light.direction; })
-    if (!(length(light.direction) > 0))
-      return warn(v.node(), "a light without a direction is left out", "light");
-  if constexpr (requires { light.position; })
-    if (!isFinite(light.position)) return warn(v.node(), "a light without a position is left out", "light");
+Fading Reader::fading(const Values& v) {
+  Vec3 fading = vrml2_ ? v.vector("attenuation", {1, 0, 0}) : fading_;
+  if (fading == Vec3{}) fading = {1, 0, 0};
+  constexpr Real kDefaultRadius = 100;
+  if (vrml2_ && v.number("radius", kDefaultRadius) != kDefaultRadius)
+    warn(v.node(), "the radius of a light is ignored: it lights objects farther away too", "radius");
+  return {fading.x, fading.y, fading.z};
+}
+
+void Reader::addLight(const Values& v, const Light& light) {
+  if (const Vec3* direction = light.direction(); direction && !(length(*direction) > 0))
+    return warn(v.node(), "a light without a direction is left out", "light");
+  if (const Vec3* position = light.position(); position && !isFinite(*position))
+    return warn(v.node(), "a light without a position is left out", "light");
   scene_.lights.push_back({light, document_.place(v.node().token)});
 }
 
@@ -59,27 +54,30 @@ Vec3 Reader::standard() const { return vrml2_ ? Vec3{} : Vec3{0, 0, 1}; }
 
 void Reader::pointLight(const Values& v, State& s) {
   if (!v.flag("on", true)) return;
-  addLight(v,
-           PointLight{.position = s.worldFromObject * v.vector("location", standard()), .color = shining(v)});
+  const Vec3 position = s.worldFromObject * v.vector("location", standard());
+  const Color color = shining(v);
+  addLight(v, trace::pointLight(position, color, fading(v)));
 }
 
 void Reader::directionalLight(const Values& v, State& s) {
   if (!v.flag("on", true)) return;
-  addLight(v, DirectionalLight{linear(s.worldFromObject, v.vector("direction", {0, 0, -1})), shining(v)});
+  const Vec3 direction = linear(s.worldFromObject, v.vector("direction", {0, 0, -1}));
+  addLight(v, trace::directionalLight(direction, shining(v)));
 }
 
 void Reader::spotLight(const Values& v, State& s) {
   if (!v.flag("on", true)) return;
-  SpotLight light{.position = s.worldFromObject * v.vector("location", standard()),
-                  .direction = linear(s.worldFromObject, v.vector("direction", {0, 0, -1})),
-                  .color = shining(v)};
+  const Vec3 position = s.worldFromObject * v.vector("location", standard()),
+             direction = linear(s.worldFromObject, v.vector("direction", {0, 0, -1}));
+  const Color color = shining(v);
   const auto degrees = [](Real radians) { return std::clamp(radians * 180 / kPi, 0.0, 180.0); };
-  light.angle = light.fullAngle = degrees(v.number("cutOffAngle", 0.785398));
+  SpotCone cone;
+  cone.angle = cone.fullAngle = degrees(v.number("cutOffAngle", 0.785398));
   if (vrml2_)
-    light.fullAngle = std::min(light.angle, degrees(v.number("beamWidth", 1.570796)));
+    cone.fullAngle = std::min(cone.angle, degrees(v.number("beamWidth", 1.570796)));
   else
-    light.exponent = std::max(0.0, 128 * v.number("dropOffRate", 0));
-  addLight(v, light);
+    cone.exponent = std::max(0.0, 128 * v.number("dropOffRate", 0));
+  addLight(v, trace::spotLight(position, direction, color, cone, fading(v)));
 }
 
 void Reader::camera(const Values& v, const State& s, const Vec3& position, Real angle, Real aspect) {

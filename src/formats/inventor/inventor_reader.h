@@ -32,6 +32,7 @@
 #include "geometry/mesh/mesh.h"
 #include "geometry/mesh/mesh_repair.h"
 #include "scene/scene.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace::inventor {
 
@@ -163,8 +164,8 @@ class Reader {
   /// A colour times a factor, within what a light can be.
   static Color shine(const Color& color, Real factor);
   Color shining(const Values& v);
-  template <class L>
-  void addLight(const Values& v, L light);
+  Fading fading(const Values& v);  // how a light fades
+  void addLight(const Values& v, const Light& light);
   Vec3 standard() const;
   void pointLight(const Values& v, State& s);
   void directionalLight(const Values& v, State& s);

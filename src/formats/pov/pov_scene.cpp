@@ -15,10 +15,7 @@
 #include "geometry/traced.h"
 #include "image/codecs/codec.h"
 #include "math/elementary.h"
-#include "shading/lights/ambient_light.h"
-#include "shading/lights/directional_light.h"
-#include "shading/lights/point_light.h"
-#include "shading/lights/spot_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace::pov {
 namespace {
@@ -369,15 +366,11 @@ void Builder::light(const Node& node, const Affine& world, Around around, int de
   for (const Ref<Node>& look : node.parts)
     emit(*look, world * Affine::translation(l.position), around, depth + 1);
   const LightLinks links{.name = {}, .castsShadows = !l.shadowless};
-  const auto fade = [&](auto& to) {
-    to.constant = 1, to.linear = 0, to.quadratic = 0;
-    if (!(l.fadePower > 0) || !(l.fadeDistance > 0)) return;
-    to.constant = 0.5;
-    if (l.fadePower < 1.5)
-      to.linear = 0.5 / l.fadeDistance;
-    else
-      to.quadratic = 0.5 / (l.fadeDistance * l.fadeDistance);
+  const auto fading = [&]() -> Fading {
+    if (!(l.fadePower > 0) || !(l.fadeDistance > 0)) return {};
     if (l.fadePower != 1 && l.fadePower != 2) leaveOut(place, "a fade_power that is neither 1 nor 2");
+    if (l.fadePower < 1.5) return {0.5, 0.5 / l.fadeDistance, 0};
+    return {0.5, 0, 0.5 / (l.fadeDistance * l.fadeDistance)};
   };
   Color color = l.color;
   for (Real* part : {&color.r, &color.g, &color.b})
@@ -387,37 +380,24 @@ void Builder::light(const Node& node, const Affine& world, Around around, int de
     }
   const Vec3 aim = at - position;
   if (l.parallel && length(aim) > 0) {
-    DirectionalLight sun{.direction = normalize(aim), .color = color};
-    scene_.lights.push_back({sun, place, links});
+    scene_.lights.push_back({directionalLight(normalize(aim), color), place, links});
     return;
   }
   const Real size = l.area ? (length(linear(world, l.axis1)) + length(linear(world, l.axis2))) / 4 : 0;
   if (l.kind != LightNode::Kind::point && length(aim) > 0) {
-    SpotLight spot;
-    spot.position = position;
-    spot.direction = normalize(aim);
-    spot.color = color;
-    spot.angle = std::clamp(l.falloff, 0.0, 180.0);
-    spot.fullAngle = std::clamp(l.radius, 0.0, spot.angle);
-    spot.edge = SpotEdge::smooth;
-    spot.exponent = l.tightness;
-    spot.radius = size;
-    fade(spot);
+    SpotCone cone{.angle = std::clamp(l.falloff, 0.0, 180.0), .smooth = true, .exponent = l.tightness};
+    cone.fullAngle = std::clamp(l.radius, 0.0, cone.angle);
+    const Fading fades = fading();
     if (l.kind == LightNode::Kind::cylinder) {
       leaveOut(place, "that the light shines into a cylinder", "a cone takes its place");
       const Real away = length(aim);
-      spot.angle = math::atan2(l.falloff, away) * 180 / kPi;
-      spot.fullAngle = math::atan2(std::min(l.radius, l.falloff), away) * 180 / kPi;
+      cone.angle = math::atan2(l.falloff, away) * 180 / kPi;
+      cone.fullAngle = math::atan2(std::min(l.radius, l.falloff), away) * 180 / kPi;
     }
-    scene_.lights.push_back({spot, place, links});
+    scene_.lights.push_back({spotLight(position, normalize(aim), color, cone, fades, size), place, links});
     return;
   }
-  PointLight point;
-  point.position = position;
-  point.color = color;
-  point.radius = size;
-  fade(point);
-  scene_.lights.push_back({point, place, links});
+  scene_.lights.push_back({pointLight(position, color, fading(), size), place, links});
 }
 
 void Builder::sky() {
@@ -504,7 +484,7 @@ void Builder::settings() {
     leaveOut(SourcePlace{.file = scene_.file}, "photons",
              "--integrator photon or --caustics renders caustics");
   if (!isBlack(world_.ambientLight))
-    scene_.lights.push_back({AmbientLight{world_.ambientLight}, SourcePlace{.file = scene_.file}});
+    scene_.lights.push_back({ambientLight(world_.ambientLight), SourcePlace{.file = scene_.file}});
   for (const FogNode& fog : world_.fogs) {
     if (&fog != &world_.fogs.front()) {
       leaveOut(fog.place, "a second fog");

@@ -5,8 +5,7 @@
 
 #include "base/text.h"
 #include "formats/directions.h"
-#include "shading/lights/ambient_light.h"
-#include "shading/lights/point_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace::ubc {
 namespace {
@@ -28,15 +27,12 @@ Phong phong(const Surface& s) {
 }
 
 void addLamp(Scene& scene, const Lamp& lamp, const SourcePlace& place) {
-  if (!isBlack(lamp.ambient)) scene.lights.push_back({AmbientLight{lamp.ambient}, place});
-  PointLight light{.position = lamp.position, .color = lamp.diffuse};
-  light.constant = lamp.attenuation.x;
-  light.linear = lamp.attenuation.y;
-  light.quadratic = lamp.attenuation.z;
-  if (lamp.attenuation == Vec3{}) light.constant = 1;
-  light.radius = lamp.radius;
-  light.extraHighlight = lamp.specular + lamp.diffuse * -1;
-  scene.lights.push_back({light, place});
+  if (!isBlack(lamp.ambient)) scene.lights.push_back({ambientLight(lamp.ambient), place});
+  const Vec3& fading = lamp.attenuation;
+  const Real constant = fading == Vec3{} ? 1 : fading.x;
+  scene.lights.push_back({pointLight(lamp.position, lamp.diffuse, {constant, fading.y, fading.z}, lamp.radius,
+                                     lamp.specular + lamp.diffuse * -1),
+                          place});
 }
 
 Camera camera(const View& view, const SourcePlace& place) {

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "render/rays/ray_tree.h"
-#include "shading/lights/ambient_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace {
 namespace {
@@ -29,7 +29,7 @@ std::string layerName(std::string_view name) {
 std::vector<std::size_t> unnamedLights(const Scene& scene) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (scene.lights[i].links.name.empty() && !scene.lights[i].light.is<AmbientLight>()) found.push_back(i);
+    if (scene.lights[i].links.name.empty() && !isAmbient(scene.lights[i].light)) found.push_back(i);
   return found;
 }
 
@@ -55,8 +55,8 @@ GroupNames groupNames(const Scene& scene) {
   const bool manyObjects = unnamedEmitters(scene).size() > kMostUnnamed;
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     const std::string& name = scene.lights[i].links.name;
-    const bool isAmbient = scene.lights[i].light.is<AmbientLight>();
-    names.lights.push_back(isAmbient       ? ""
+    const bool ambient = isAmbient(scene.lights[i].light);
+    names.lights.push_back(ambient         ? ""
                            : !name.empty() ? name
                            : manyLights    ? std::string(kUnnamedLights)
                                            : "light" + std::to_string(i + 1));

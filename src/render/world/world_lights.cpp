@@ -5,7 +5,7 @@
 #include "render/world/number_range.h"
 #include "render/world/world.h"
 #include "scene/scene_features.h"
-#include "shading/lights/ambient_light.h"
+#include "shading/lights/plain_lights.h"
 #include "shading/lights/portal.h"
 
 namespace trace {
@@ -54,8 +54,8 @@ void World::addLights(const Scene& scene, const Settings& settings, Messages& me
       continue;
     }
     const Light light = lightWithout(source.light, settings.switchedOff).value_or(source.light);
-    if (const auto* ambient = light.as<AmbientLight>()) {
-      ambient_ += ambient->color * settings.ambientScale;
+    if (isAmbient(light)) {
+      ambient_ += *light.color() * settings.ambientScale;
       continue;
     }
     const LightGeometry geometry = geometryOf(light);

@@ -6,9 +6,7 @@
 #include "base/text.h"
 #include "formats/directions.h"
 #include "formats/mesh/gltf/document/gltf_values.h"
-#include "shading/lights/directional_light.h"
-#include "shading/lights/point_light.h"
-#include "shading/lights/spot_light.h"
+#include "shading/lights/plain_lights.h"
 
 namespace trace {
 
@@ -43,21 +41,18 @@ void readLight(const tinygltf::Light& from, const Affine& worldFromNode, const S
   if (!isFinite(color) || !isFinite(position) || !isFinite(direction) || direction == Vec3{})
     return messages.warn(place, "light \"" + from.name + "\" is left out: its numbers are not finite");
   if (from.type == "directional") {
-    model.lights.push_back({DirectionalLight{.direction = normalize(direction), .color = color}, place});
+    model.lights.push_back({directionalLight(normalize(direction), color), place});
     return;
   }
   const auto degrees = [](Real radians) { return std::clamp(radians * 180 / kPi, 0.0, 90.0); };
   if (from.type == "spot")
-    model.lights.push_back({SpotLight{.position = position,
-                                      .direction = normalize(direction),
-                                      .color = color,
-                                      .angle = degrees(from.spot.outerConeAngle),
-                                      .fullAngle = degrees(from.spot.innerConeAngle),
-                                      .constant = 0,
-                                      .quadratic = 1},
+    model.lights.push_back({spotLight(position, normalize(direction), color,
+                                      {.angle = degrees(from.spot.outerConeAngle),
+                                       .fullAngle = degrees(from.spot.innerConeAngle)},
+                                      kInverseSquare),
                             place});
   else
-    model.lights.push_back({PointLight{.position = position, .color = color}, place});
+    model.lights.push_back({pointLight(position, color), place});
   const bool isLifted = std::any_of(model.choices.begin(), model.choices.end(),
                                     [](const auto& choice) { return choice.option == "limit-attenuation"; });
   if (!isLifted) model.choices.push_back({"limit-attenuation", "off", place});
