@@ -314,7 +314,8 @@ void takeKeys(Studio& studio) {
 void chooseFile(Studio& studio, const Option& option) {
   const std::string name(option.name), now = option.get(studio.workspace.chosenSettings());
   const std::string near = now == "none" ? studio.workspace.document.file() : now;
-  studio.dialog.open("Choose the " + name, FileDialog::Purpose::read, near,
+  const std::string hint = name == "environment" ? ": a map, or any of the six faces of a cube" : "";
+  studio.dialog.open("Choose the " + name + hint, FileDialog::Purpose::read, near,
                      pictureSuffixes(FileDialog::Purpose::read),
                      [&studio, name](const std::string& file) { studio.workspace.choose(name, file); });
 }
