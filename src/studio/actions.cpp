@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "app/editing/first_scene.h"
+#include "app/view/drawing.h"
 #include "app/view/magnifier.h"
+#include "app/view/ray_story.h"
 #include "studio/dialogs.h"
 #include "studio/host.h"
 #include "studio/panels.h"
@@ -85,14 +87,13 @@ void exportRays(Studio& studio) {
   const std::filesystem::path picture(studio.workspace.defaultPictureFile());
   studio.dialog.open("Export the rays", FileDialog::Purpose::write,
                      (picture.parent_path() / (picture.stem().string() + "-rays.svg")).string(),
-                     {".svg", ".png"}, [&studio](const std::string& file) { saveRays(studio, file); });
+                     kDrawingSuffixes, [&studio](const std::string& file) { saveRays(studio, file); });
 }
 void exportStory(Studio& studio) {
   const std::filesystem::path picture(studio.workspace.defaultPictureFile());
   studio.dialog.open("Export the view in space and the tree", FileDialog::Purpose::write,
                      (picture.parent_path() / (picture.stem().string() + "-tree.svg")).string(),
-                     {".svg", ".png", ".apng"},
-                     [&studio](const std::string& file) { saveStory(studio, file); });
+                     kStorySuffixes, [&studio](const std::string& file) { saveStory(studio, file); });
 }
 void saveSceneAs(Studio& studio) { saveSceneAsAnd(studio, nullptr); }
 void saveScene(Studio& studio) { saveSceneAnd(studio, nullptr); }
@@ -313,7 +314,8 @@ void takeKeys(Studio& studio) {
 void chooseFile(Studio& studio, const Option& option) {
   const std::string name(option.name), now = option.get(studio.workspace.chosenSettings());
   const std::string near = now == "none" ? studio.workspace.document.file() : now;
-  studio.dialog.open("Choose the " + name, FileDialog::Purpose::read, near,
+  const std::string hint = name == "environment" ? ": a map, or any of the six faces of a cube" : "";
+  studio.dialog.open("Choose the " + name + hint, FileDialog::Purpose::read, near,
                      pictureSuffixes(FileDialog::Purpose::read),
                      [&studio, name](const std::string& file) { studio.workspace.choose(name, file); });
 }

@@ -610,6 +610,9 @@ TEST_F(FolderTest, ListsFoldersFirstThenFilesThatFit) {
   EXPECT_THROW(listFolder(path("nowhere"), {}), Error);
   EXPECT_EQ(withSuffix("lesson", ".ray"), "lesson.ray");
   EXPECT_EQ(withSuffix("lesson.tr", ".ray"), "lesson.tr");
+  EXPECT_EQ(endingProblem("rays.SVG", {".svg", ".png"}), "");
+  EXPECT_EQ(endingProblem("rays.jpg", {".svg", ".png", ".apng"}),
+            "the name must end in .svg, .png or .apng, found \"rays.jpg\"");
   EXPECT_EQ(nearestFolder(path("zoo/no/such")), path("zoo"));
   EXPECT_EQ(nearestFolder(path("a.ray")), fs::path(path("")).parent_path().string());
 }

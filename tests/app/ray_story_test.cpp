@@ -3,13 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <memory>
 
 #include "app/session/session.h"
+#include "base/error.h"
+#include "base/files/file.h"
 #include "geometry/shapes/solids/plane.h"
 #include "geometry/shapes/solids/sphere.h"
 #include "image/codecs/codec_parts.h"
 #include "image/development/development.h"
+#include "image/srgb.h"
+#include "math/elementary.h"
+#include "support/folder.h"
 #include "support/scenes.h"
 
 namespace trace::test {
@@ -108,13 +114,84 @@ TEST(RayStory, ShowsColoursLightsArrowsAndHowRaysEnded) {
   EXPECT_TRUE(blueSeen && blueBehindGlass);
 }
 
-TEST(RayStory, AFilmHasAPictureForEachRay) {
+/// The words of all lines, one below the other.
+std::string wordsOf(const Drawing& drawing) {
+  std::string text;
+  for (const Drawn& thing : drawing.things)
+    if (const auto* words = std::get_if<DrawnWords>(&thing)) text += words->words + "\n";
+  return text;
+}
+
+TEST(RayStory, SignsStandOnlyBetweenWhatIsThere) {
+  Scene scene = mirrorAndBall();
+  Phong half;
+  half.diffuse = half.reflective = Color(0.5);
+  scene.materials.front().model = half;
+  scene.lights.push_back({PointLight{.position = {0, 0, 6}, .color = Color(0.5)}, {}});
+  const auto session = sessionOf(scene, {});
+  const TracedPixel pixel = tracePixel(session, 20, 20, 0);
+  const RayStory story(pixel, scene.camera);
+  ASSERT_EQ(pixel.why.sum.size(), 2u);
+  EXPECT_EQ(wordsIn(story.after(1), "="), 0u) << wordsOf(story.after(1));
+  EXPECT_EQ(wordsIn(story.after(1), "+"), 0u);
+  EXPECT_EQ(wordsIn(story.after(2), "="), 1u) << wordsOf(story.after(2));
+  EXPECT_EQ(wordsIn(story.after(2), "+"), 0u);
+  EXPECT_EQ(wordsIn(story.after(story.rays()), "+"), 1u) << wordsOf(story.after(story.rays()));
+}
+
+TEST(RayStory, ARowHasItsNumberOnceItsLightIsKnownAndItIsThatOfTheSum) {
+  const auto session = sessionOf(mirrorAndBall(), {.spp = 4});
+  const TracedPixel pixel = tracePixel(session, 20, 20, 1);
+  ASSERT_EQ(pixel.explanation.samples.size(), 4u);
+  const RayStory story(pixel, session->scene().camera);
+  char number[24];
+  std::snprintf(number, sizeof number, "%.4f", luminanceOf(pixel.explanation.samples[1]));
+  EXPECT_EQ(wordsIn(story.after(1), number), 0u) << number;
+  EXPECT_GE(wordsIn(story.after(story.rays()), number), 1u) << number;
+  EXPECT_EQ(wordsIn(story.whole(), "sample 1 of 4"), 1u) << wordsOf(story.whole());
+}
+
+TEST(RayStory, ALastRayGrows) {
+  const auto session = sessionOf(mirrorAndBall(), {});
+  const RayStory story(tracePixel(session, 20, 20, 0), session->scene().camera);
+  const auto reach = [](const Drawing& drawing) {
+    double most = 0;
+    for (const Drawn& thing : drawing.things)
+      if (const auto* line = std::get_if<DrawnLine>(&thing))
+        most += math::hypot(line->to.x - line->from.x, line->to.y - line->from.y);
+    return most;
+  };
+  EXPECT_LT(reach(story.after(2, 0.25)), reach(story.after(2, 0.5)));
+  EXPECT_LE(reach(story.after(2, 0.5)), reach(story.after(2))) << "it ends at the edge of the view";
+}
+
+TEST(RayStory, IsWrittenByTheEndingOfTheFile) {
+  const Folder folder;
+  const auto session = sessionOf(mirrorAndBall(), {});
+  const RayStory story(tracePixel(session, 20, 20, 0), session->scene().camera);
+  for (const char* name : {"a.svg", "b.PNG", "c.apng"}) writeStory(folder / name, story);
+  EXPECT_EQ(readFile(folder / "a.svg").substr(0, 4), "<svg");
+  EXPECT_EQ(readFile(folder / "b.PNG").substr(1, 3), "PNG");
+  EXPECT_NE(readFile(folder / "c.apng").find("acTL"), std::string::npos);
+  for (const char* name : {"d.jpg", "e"}) {
+    try {
+      writeStory(folder / name, story);
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(".svg, .png or .apng"), std::string::npos) << error.what();
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder / name));
+  }
+  EXPECT_THROW(writeDrawing(folder / "f.apng", story.whole()), Error);
+}
+
+TEST(RayStory, AFilmHasFourPicturesForEachRay) {
   const auto session = sessionOf(mirrorAndBall(), {});
   const RayStory story(tracePixel(session, 20, 20, 0), session->scene().camera);
   int pictures = 0;
   forEachPngChunk(filmOf(story),
                   [&](std::string_view type, std::string_view) { pictures += type == "fcTL"; });
-  EXPECT_EQ(pictures, story.rays());
+  EXPECT_EQ(pictures, 4 * story.rays());
 }
 
 TEST(RayStory, ACameraIsThatOfItsFrame) {

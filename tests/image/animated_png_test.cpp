@@ -35,5 +35,22 @@ TEST(AnimatedPng, NumbersItsChunksInTheirOrder) {
   EXPECT_EQ(numbers, (std::vector<int>{0, 1, 2, 3, 4}));
 }
 
+TEST(AnimatedPng, StoresOfEachPictureWhatChanged) {
+  AnimatedPng film;
+  Bytes picture = grey(10);
+  film.add(picture, 1);
+  picture.rgb[3 * 4] = 99;  // x = 1, y = 1
+  picture.rgb[3 * 5 + 2] = 98;
+  film.add(picture, 1);
+  film.add(picture, 1);
+  std::vector<std::vector<int>> parts;  // width, height, x, y
+  forEachPngChunk(film.finish(), [&](std::string_view type, std::string_view data) {
+    if (type != "fcTL") return;
+    parts.emplace_back();
+    for (const std::size_t at : {7, 11, 15, 19}) parts.back().push_back(static_cast<unsigned char>(data[at]));
+  });
+  EXPECT_EQ(parts, (std::vector<std::vector<int>>{{3, 2, 0, 0}, {2, 1, 1, 1}, {1, 1, 0, 0}}));
+}
+
 }  // namespace
 }  // namespace trace::test

@@ -57,6 +57,15 @@ std::string withSuffix(const std::string& name, const std::string& suffix) {
   return fs::path(name).has_extension() ? name : name + suffix;
 }
 
+std::string endingProblem(const std::string& name, const std::vector<std::string>& suffixes) {
+  const std::string ending = lower(fs::path(name).extension().generic_string());
+  if (std::find(suffixes.begin(), suffixes.end(), ending) != suffixes.end()) return "";
+  std::string text = "the name must end in ";
+  for (std::size_t i = 0; i < suffixes.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < suffixes.size() ? ", " : " or ") + suffixes[i];
+  return text + ", found \"" + fs::path(name).filename().generic_string() + '"';
+}
+
 std::string absoluteFolder(const std::string& path) {
   std::error_code ignored;
   return fs::absolute(path.empty() ? "." : path, ignored).lexically_normal().generic_string();

@@ -21,6 +21,10 @@ std::vector<FolderEntry> listFolder(const std::string& path, const std::vector<s
 /// The name with that suffix if it has none.
 std::string withSuffix(const std::string& name, const std::string& suffix);
 
+/// Why no file of that name can be written, where its name must end in one of the suffixes (in any case), in
+/// words; "" if it does.
+std::string endingProblem(const std::string& name, const std::vector<std::string>& suffixes);
+
 /// Why the files of the folder cannot be listed, in words; "" if they can.
 std::string folderProblem(const std::string& path);
 

@@ -94,6 +94,11 @@ TracedPixel tracePixel(std::shared_ptr<const Session> session, int x, int y, int
   return pixel;
 }
 
+std::string sampleText(const TracedPixel& pixel) {
+  const std::size_t count = pixel.explanation.samples.size();
+  return count < 2 ? "" : "sample " + std::to_string(pixel.tree().sample) + " of " + std::to_string(count);
+}
+
 void PixelInspector::want(const std::shared_ptr<const Session>& session, int x, int y, int sample) {
   if (session == session_ && x == x_ && y == y_ && sample == sample_) return;
   session_ = session;

@@ -32,7 +32,12 @@ struct TracedPixel {
   const RayTree& tree() const { return explanation.tree; }
   const Scene& scene() const { return session->sceneOf(tree()); }
   RayLooks looks(int ray) const { return segments[static_cast<std::size_t>(ray)].looks; }
+  /// The light along the ray is known once so many rays were traced: it and all that come from it.
+  bool isKnown(int ray, int rays) const { return lastBelow(tree(), ray) < rays; }
 };
+
+/// "sample 2 of 9", of those from 0 to 8; "" of a pixel that has only one.
+std::string sampleText(const TracedPixel& pixel);
 
 /// The explained rays that a window shows.
 TracedPixel arrangedPixel(std::shared_ptr<const Session> session, Explanation explanation);

@@ -329,20 +329,6 @@ std::string filterOf(const RayTree& tree, const Scene& scene, const WhySummand& 
   return ", filtered by " + filtersOf(ray, scene) + " to " + percent(brightness(ray.radiance));
 }
 
-/// The last ray, in the order of tracing, of those that come from this one.
-int lastBelow(const RayTree& tree, int ray) {
-  std::vector<char> below(tree.nodes.size());
-  int last = ray;
-  below[static_cast<std::size_t>(ray)] = 1;
-  for (int i = ray + 1; i < static_cast<int>(tree.nodes.size()); ++i) {
-    const int parent = rayAt(tree, i).parent;
-    if (parent < 0 || !below[static_cast<std::size_t>(parent)]) continue;
-    below[static_cast<std::size_t>(i)] = 1;
-    last = i;
-  }
-  return last;
-}
-
 /// The summand in words: "the light of sun", "a reflection".
 std::string phraseOf(Term::Kind kind, const std::string& light) {
   using Kind = Term::Kind;
@@ -374,6 +360,19 @@ std::string thingSeen(const RayNode& root, const Scene& scene) {
 }
 
 }  // namespace
+
+int lastBelow(const RayTree& tree, int ray) {
+  std::vector<char> below(tree.nodes.size());
+  int last = ray;
+  below[static_cast<std::size_t>(ray)] = 1;
+  for (int i = ray + 1; i < static_cast<int>(tree.nodes.size()); ++i) {
+    const int parent = rayAt(tree, i).parent;
+    if (parent < 0 || !below[static_cast<std::size_t>(parent)]) continue;
+    below[static_cast<std::size_t>(i)] = 1;
+    last = i;
+  }
+  return last;
+}
 
 std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene, int ray) {
   std::vector<WhySummand> sum;

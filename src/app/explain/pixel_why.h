@@ -38,6 +38,9 @@ struct PixelWhy {
   std::vector<WhyCure> cures;  ///< the strongest last
 };
 
+/// The last ray, in the order of tracing, of those that come from this one.
+int lastBelow(const RayTree& tree, int ray);
+
 /// The terms of a ray's radiance, in their order: those of one kind and one light together.
 std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene, int ray = 0);
 

@@ -123,7 +123,13 @@ std::string metBy(const RayTree& tree, const Scene& scene, int ray) {
   return term && term->light ? shortLightName(scene, term->light->light) : "";
 }
 
-Real share(const RayNode& node) { return luminanceOf(node.weight * node.radiance); }
+Color addedLight(const RayTree& tree, int ray) {
+  const RayNode& node = rayAt(tree, ray);
+  const Real sample = maxComponent(rayAt(tree, 0).weight);  // the sample's part of the pixel
+  return node.weight * node.radiance * (sample > 0 ? 1 / sample : 0);
+}
+
+Real share(const RayTree& tree, int ray) { return luminanceOf(addedLight(tree, ray)); }
 
 std::vector<std::pair<std::string, std::string>> numbersOf(const RayTree& tree, int index,
                                                            const Scene& scene) {

@@ -10,9 +10,10 @@
 
 namespace trace {
 
-/// The contribution of the ray to the pixel: the largest channel of weight * radiance for rays that bring
-/// light.
-Real share(const RayNode& node);
+/// The light that the ray adds to its sample, all channels; that of the camera ray is the sample itself.
+Color addedLight(const RayTree& tree, int ray);
+/// Its luminance.
+Real share(const RayTree& tree, int ray);
 /// "0.12 0.1 0.0813": red, green and blue, with so many significant digits.
 std::string channels(const Color& c, int digits = 3);
 

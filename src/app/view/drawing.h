@@ -57,6 +57,12 @@ struct Drawing {
 /// An SVG 1.1 file; pictures are inside it, as PNG.
 std::string toSvg(const Drawing& drawing);
 
+/// The endings of files that drawings are written to.
+inline const std::vector<std::string> kDrawingSuffixes{".svg", ".png"};
+
+/// Writes by the file's ending. Throws Error(Fault::usage) for another ending, and Error(Fault::io).
+void writeDrawing(const std::string& file, const Drawing& drawing);
+
 /// Smooth edges; words in the letters of image/letters.h.
 Picture toPicture(const Drawing& drawing);
 

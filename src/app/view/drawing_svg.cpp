@@ -5,6 +5,7 @@
 #include "base/match.h"
 #include "base/names.h"
 #include "image/codecs/codec.h"
+#include "image/letters.h"
 
 namespace trace {
 namespace {
@@ -78,9 +79,11 @@ std::string toSvg(const Drawing& drawing) {
                 text += "<circle" + attribute("cx", d.center.x) + attribute("cy", d.center.y) +
                         attribute("r", d.radius) + colorOf("fill", d.color) + "/>\n";
               },
-              [&](const DrawnWords& w) {
+              [&](const DrawnWords& w) {  // as wide as our letters, in whatever font
                 text += "<text" + attribute("x", w.at.x) + attribute("y", w.at.y + 0.8 * w.height) +
-                        attribute("font-size", w.height) + " font-family=\"sans-serif\"" +
+                        attribute("font-size", w.height) +
+                        attribute("textLength", lettersWidth(w.words, w.height)) +
+                        " lengthAdjust=\"spacingAndGlyphs\" font-family=\"Arial, Helvetica, sans-serif\"" +
                         colorOf("fill", w.color) + ">" + xmlText(w.words) + "</text>\n";
               },
               [&](const DrawnPicture& p) {

@@ -5,12 +5,15 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/editing/folder.h"
 #include "app/explain/ray_segments.h"
 #include "app/explain/ray_view.h"
 #include "app/explain/ray_words.h"
 #include "app/view/panel.h"
 #include "app/view/space/room.h"
 #include "app/view/space/scene_model.h"
+#include "base/error.h"
+#include "base/files/file.h"
 #include "image/codecs/animated_png.h"
 #include "image/development/development.h"
 #include "image/letters.h"
@@ -24,7 +27,7 @@ constexpr double kAdds = 74, kEnded = 190, kTree = 620;    // widths of two colu
 constexpr int kRows = static_cast<int>(kHigh / kRowHigh);  // rows of the tree next to the view
 constexpr int kMostRows = 400;                             // rows of the tree in a drawing of all rays
 
-/// An SVG's letters may be a little wider than ours.
+/// A program that ignores the length of an SVG's text may show letters a little wider than ours.
 double wideOf(const std::string& words) { return 1.1 * lettersWidth(words, kLetters); }
 
 /// As much of the words as has room.
@@ -91,29 +94,32 @@ RayStory::RayStory(const TracedPixel& pixel, const Camera& view) : pixel_(pixel)
                              {kSheetMargin, kSheetMargin + 1.5 * kRowHigh}, wide_, kHigh);
 }
 
-Drawing RayStory::after(int rays) const { return drawn(std::clamp(rays, 0, this->rays()), kRows); }
+Drawing RayStory::after(int rays, double grown) const {
+  return drawn(std::clamp(rays, 0, this->rays()), kRows, grown);
+}
 
-Drawing RayStory::whole() const { return drawn(rays(), std::clamp(rays(), kRows, kMostRows)); }
+Drawing RayStory::whole() const { return drawn(rays(), std::clamp(rays(), kRows, kMostRows), 1); }
 
-Drawing RayStory::drawn(int rays, int rows) const {
+Drawing RayStory::drawn(int rays, int rows, double grown) const {
   Drawing drawing;
   drawing.width = static_cast<int>(wide_ + kTree + 3 * kSheetMargin);
   drawing.height =
       static_cast<int>(std::max(kHigh + 5 * kRowHigh, (rows + 2.5) * kRowHigh) + 2 * kSheetMargin);
-  drawing.things.push_back(wordsAt({kSheetMargin, kSheetMargin}, "pixel " + std::to_string(pixel_.x) + "," +
-                                                                     std::to_string(pixel_.y) + ", " +
-                                                                     std::to_string(rays) + " of " +
-                                                                     std::to_string(this->rays()) + " rays"));
+  const std::string sample = sampleText(pixel_);
+  drawing.things.push_back(wordsAt({kSheetMargin, kSheetMargin},
+                                   "pixel " + std::to_string(pixel_.x) + "," + std::to_string(pixel_.y) +
+                                       (sample.empty() ? "" : ", " + sample) + ", " + std::to_string(rays) +
+                                       " of " + std::to_string(this->rays()) + " rays"));
   const bool beside = rows > kRows;  // the tree is longer than the view, and the sum is beside it
   const double end =
       addSum(drawing, rays, beside ? wide_ + kSheetMargin : drawing.width - kSheetMargin) + kSheetMargin;
   if (beside) drawing.height = std::max(drawing.height, static_cast<int>(end));
-  addSpace(drawing, rays);
+  addSpace(drawing, rays, grown);
   addTree(drawing, rays, rows);
   return drawing;
 }
 
-void RayStory::addSpace(Drawing& drawing, int rays) const {
+void RayStory::addSpace(Drawing& drawing, int rays, double grown) const {
   const Panel panel(frame_, surfaces_.at, wide_, kHigh);
   const RayTree& tree = pixel_.tree();
   const Real whole = std::max(maxComponent(tree.nodes.front().weight), 1e-30);
@@ -122,14 +128,16 @@ void RayStory::addSpace(Drawing& drawing, int rays) const {
   addLights(drawing, panel);
   addCamera(drawing, panel);
   for (const bool shadows : {true, false})  // below, so that they hide no others
-    for (const RaySegment& segment : pixel_.segments) {
+    for (RaySegment segment : pixel_.segments) {
       const RayNode& node = rayAt(tree, segment.node);
       if (segment.node >= rays || (node.kind == RayKind::shadow) != shadows) continue;
+      const bool grows = segment.node == rays - 1 && grown < 1;
+      if (grows) segment.to = segment.from + (segment.to - segment.from) * grown;
       const Real share = std::clamp(maxComponent(node.weight) / whole, 0.0, 1.0);
       const double width = 1.5 + 3.5 * std::sqrt(share) + (segment.node == rays - 1 ? 1.5 : 0);
       panel.line(drawing, segment.from, segment.to, look(segment.looks).color, width, segment.leaves);
       panel.arrowHead(drawing, segment.from, segment.to, look(segment.looks).color, 8 + 2 * width);
-      if (node.hit) panel.disk(drawing, node.hit->surface.point, 4, look(segment.looks).color);
+      if (node.hit && !grows) panel.disk(drawing, node.hit->surface.point, 4, look(segment.looks).color);
     }
   panel.disk(drawing, tree.nodes.front().ray.origin, 5, kInk);
   drawing.things.push_back(
@@ -268,9 +276,9 @@ void RayStory::addTree(Drawing& drawing, int rays, int rows) const {
         wordsAt({x + 20, y}, cut(std::string(looks.name) + (met.empty() ? "" : ": " + met), adds - x - 28)));
     const RayNode& node = rayAt(pixel_.tree(), i);
     drawing.things.push_back(wordsAt({ended, y}, cut(shortEnd(node), kEnded)));
-    if (node.kind == RayKind::light) continue;
+    if (node.kind == RayKind::light || !pixel_.isKnown(i, rays)) continue;
     char text[24];
-    std::snprintf(text, sizeof text, "%.4f", share(node));
+    std::snprintf(text, sizeof text, "%.4f", share(pixel_.tree(), i));
     drawing.things.push_back(wordsAt({adds, y}, text));
   }
 }
@@ -291,23 +299,37 @@ double RayStory::addSum(Drawing& drawing, int rays, double most) const {
     x += wide;
   };
   const std::vector<WhySummand>& sum = pixel_.why.sum;
+  std::vector<WhySummand> there;  // so far
+  for (const WhySummand& each : sum)
+    if (all || each.last < rays) there.push_back(each);
   const Color whole = all ? pixel_.tree().nodes.front().radiance : sumAfter(sum, rays);
-  add(whole, channels(whole) + (sum.empty() ? "" : "  ="));
-  for (std::size_t i = 0; i < sum.size(); ++i)
-    if (all || sum[i].last < rays)
-      add(sum[i].color, sum[i].name + " " + channels(sum[i].color) + (i + 1 < sum.size() ? "  +" : ""));
+  add(whole, channels(whole) + (there.empty() ? "" : "  ="));
+  for (std::size_t i = 0; i < there.size(); ++i)
+    add(there[i].color, there[i].name + " " + channels(there[i].color) + (i + 1 < there.size() ? "  +" : ""));
   return y + kRowHigh;
 }
 
 std::string filmOf(const RayStory& story) {
-  constexpr int kMostPictures = 60;
-  constexpr double kEach = 2, kLast = 8;  // seconds: time to speak
+  constexpr int kMostPictures = 60, kGrowth = 4;            // kGrowth: pictures of one ray
+  constexpr double kEach = 1.7, kGrowing = 0.1, kLast = 8;  // seconds: time to speak
   AnimatedPng film;
+  const auto add = [&](const Drawing& drawing, double seconds) {
+    film.add(toBytes(toPicture(drawing), Rounding::nearest), seconds);
+  };
   const int step = std::max(1, (story.rays() + kMostPictures - 1) / kMostPictures);
-  for (int rays = step; rays < story.rays(); rays += step)
-    film.add(toBytes(toPicture(story.after(rays)), Rounding::nearest), kEach);
-  film.add(toBytes(toPicture(story.after(story.rays())), Rounding::nearest), kLast);
-  return film.finish();
+  for (int rays = std::min(step, story.rays());; rays = std::min(rays + step, story.rays())) {
+    for (int part = 1; part < kGrowth && step == 1; ++part)
+      add(story.after(rays, part / double{kGrowth}), kGrowing);
+    add(story.after(rays), rays < story.rays() ? kEach : kLast);
+    if (rays == story.rays()) return film.finish();
+  }
+}
+
+void writeStory(const std::string& file, const RayStory& story) {
+  if (const std::string problem = endingProblem(file, kStorySuffixes); !problem.empty())
+    throw Error(Fault::usage, problem);
+  if (endingProblem(file, {".apng"}).empty()) return writeFile(file, filmOf(story));
+  writeDrawing(file, story.whole());
 }
 
 }  // namespace trace

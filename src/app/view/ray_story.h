@@ -21,14 +21,14 @@ class RayStory {
 
   int rays() const { return static_cast<int>(pixel_.tree().nodes.size()); }
   /// After so many rays, in the order of tracing; with the sentence about the last, or about the pixel once
-  /// all are there.
-  Drawing after(int rays) const;
+  /// all are there. `grown`: the share of the last ray that is drawn.
+  Drawing after(int rays, double grown = 1) const;
   /// After all rays, with every row of the tree: as high as it needs.
   Drawing whole() const;
 
  private:
-  Drawing drawn(int rays, int rows) const;
-  void addSpace(Drawing& drawing, int rays) const;
+  Drawing drawn(int rays, int rows, double grown) const;
+  void addSpace(Drawing& drawing, int rays, double grown) const;
   void addLights(Drawing& drawing, const Panel& panel) const;
   void addCamera(Drawing& drawing, const Panel& panel) const;
   void addTree(Drawing& drawing, int rays, int rows) const;
@@ -41,8 +41,16 @@ class RayStory {
   DrawnPicture surfaces_;
 };
 
-/// The film in which one ray after the other appears, as an animated PNG.
+/// The film in which one ray after the other grows, as an animated PNG. Where there are many, several appear
+/// at a time.
 std::string filmOf(const RayStory& story);
+
+/// The endings of files that a story is written to.
+inline const std::vector<std::string> kStorySuffixes{".svg", ".png", ".apng"};
+
+/// Writes the film as .apng, or the whole drawing, by the file's ending. Throws Error(Fault::usage) for
+/// another ending, and Error(Fault::io).
+void writeStory(const std::string& file, const RayStory& story);
 
 /// The camera of a scene that sees what the frame shows. Precondition: the frame is orthogonal.
 Camera cameraOf(const CameraFrame& frame, Real aspect);

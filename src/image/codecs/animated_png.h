@@ -19,7 +19,7 @@ class AnimatedPng {
   std::string finish() const;
 
  private:
-  int width_ = 0, height_ = 0;
+  Bytes last_;  // a picture is stored as the rectangle in which it differs from this
   std::uint32_t pictures_ = 0, chunks_ = 0;  // chunks that have a sequence number
   std::string header_, body_;
 };

@@ -121,6 +121,7 @@ void drawBar(Studio& studio) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("choose a picture to compare with (Ctrl+Shift+R)");
     return;
   }
+  if (view.showsPlane()) return;  // it is not compared
   int index = static_cast<int>(view.view);
   ImGui::SameLine();
   roomFor(characters(20));

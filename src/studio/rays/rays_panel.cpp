@@ -35,7 +35,9 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
   }
   if (samples > 1) {
     ImGui::SetNextItemWidth(characters(18));
-    ImGui::DragInt("##sample", &view.sample, 0.1f, 0, samples - 1, "sample %d", ImGuiSliderFlags_AlwaysClamp);
+    char format[32];
+    std::snprintf(format, sizeof format, "sample %%d of %d", samples);
+    ImGui::DragInt("##sample", &view.sample, 0.1f, 0, samples - 1, format, ImGuiSliderFlags_AlwaysClamp);
     escapable(view.sample);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("drag: the samples of the pixel, from 0");
     if (roomy) ImGui::SameLine();
@@ -164,10 +166,7 @@ void saveRays(Studio& studio, const std::string& file) {
   studio.workspace.saveBy(file, [file, session = pixel.session, tree = pixel.tree()] {
     const Drawing drawing =
         drawRays(session->sceneOf(tree), session->settings(), session->worldOf(tree), tree);
-    if (std::filesystem::path(file).extension() == ".png")
-      writePicture(file, toPicture(drawing), Rounding::nearest);
-    else
-      writeFile(file, toSvg(drawing));
+    writeDrawing(file, drawing);
   });
 }
 
@@ -177,14 +176,7 @@ void saveStory(Studio& studio, const std::string& file) {
   const Document& document = studio.workspace.document;
   const Camera camera = studio.rays.fromCamera ? cameraFor(document.scene(), document.settings())
                                                : cameraOf(studio.rays.orbit.frame(aspect), aspect);
-  studio.workspace.saveBy(file, [file, pixel, camera] {
-    const RayStory story(pixel, camera);
-    const std::string kind = std::filesystem::path(file).extension().string();
-    if (kind == ".apng") return writeFile(file, filmOf(story));
-    const Drawing drawing = story.whole();
-    if (kind == ".png") return writePicture(file, toPicture(drawing), Rounding::nearest);
-    writeFile(file, toSvg(drawing));
-  });
+  studio.workspace.saveBy(file, [file, pixel, camera] { writeStory(file, RayStory(pixel, camera)); });
 }
 
 void stepRays(Studio& studio, int rays) {

@@ -52,7 +52,7 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
   ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(ends ? 9 : 7));
   if (ends) ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.32f);
   columnHeads({"its kind and its secondary rays", "the object, light or medium that it came to",
-               "the luminance of its contribution to the pixel: its radiance times its weight there",
+               "the luminance that it adds to this sample: its radiance times its weight there",
                "why it ended, or how it continues"},
               ends ? 4 : 3);
   if (const auto found = std::find(rows.begin(), rows.end(), view.scrollTo); found != rows.end()) {
@@ -112,9 +112,9 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
       ImGui::TableNextColumn();
       cutText(metBy(pixel.tree(), pixel.scene(), i));
       ImGui::TableNextColumn();
-      if (node.kind != RayKind::light) {
-        ImGui::Text("%.4f", share(node));
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", channels(node.weight * node.radiance).c_str());
+      if (node.kind != RayKind::light && (view.step < 0 || pixel.isKnown(i, view.step))) {
+        ImGui::Text("%.4f", share(pixel.tree(), i));
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", channels(addedLight(pixel.tree(), i)).c_str());
       }
       if (ends) {
         ImGui::TableNextColumn();

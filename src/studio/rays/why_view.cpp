@@ -58,7 +58,8 @@ void drawSum(Studio& studio, const TracedPixel& pixel) {
   const Settings& settings = pixel.session->settings();
   const int step = studio.rays.step;
   const float side = ImGui::GetTextLineHeight();
-  const auto swatch = [&](const char* id, const std::string& name, const Color& color) {
+  const auto swatch = [&](const char* id, const std::string& name, const Color& color,
+                          const char* sign = "") {
     ImGui::PushStyleColor(ImGuiCol_Border,
                           ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));  // dark ones are seen
     const bool pressed =
@@ -67,7 +68,7 @@ void drawSum(Studio& studio, const TracedPixel& pixel) {
     ImGui::PopStyleColor();
     const bool over = ImGui::IsItemHovered();
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-    ImGui::TextUnformatted(name.c_str());
+    ImGui::TextUnformatted((name + sign).c_str());
     if (over || ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", name.c_str(), channels(color).c_str());
     return pressed || ImGui::IsItemClicked();
   };
@@ -76,13 +77,14 @@ void drawSum(Studio& studio, const TracedPixel& pixel) {
   swatch("##sum", "=", step < 0 || step >= static_cast<int>(studio.rays.rays) ? whole : sumAfter(sum, step));
   landmark("sum");
   for (std::size_t i = 0; i < sum.size(); ++i) {
-    const std::string name = sum[i].brief + (i + 1 < sum.size() ? "  +" : "");
-    beside(gaps + ImGui::CalcTextSize(name.c_str()).x);
+    const std::string& name = sum[i].brief;
+    const char* sign = i + 1 < sum.size() ? "  +" : "";
+    beside(gaps + ImGui::CalcTextSize((name + sign).c_str()).x);
     ImGui::PushID(static_cast<int>(i));
     constexpr float kToCome = 0.3f;
     const bool there = step < 0 || sum[i].last < step;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, ImGui::GetStyle().Alpha * (there ? 1 : kToCome));
-    if (swatch("##term", name, there ? sum[i].color : Color(0)) && sum[i].ray >= 0)
+    if (swatch("##term", name, there ? sum[i].color : Color(0), sign) && sum[i].ray >= 0)
       studio.rays.selected = studio.rays.scrollTo = sum[i].ray;
     ImGui::PopStyleVar();
     ImGui::PopID();

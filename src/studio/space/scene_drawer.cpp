@@ -61,7 +61,7 @@ in vec3 place, facing;
 uniform vec3 eye, inside;
 uniform bool wall;
 uniform vec4 colour;
-uniform bool flatly;
+uniform bool flatly, unlit;
 uniform int lamps;
 uniform vec4 lampPlaces[8];  // w is 0 for a direction
 uniform vec3 lampColours[8];
@@ -76,6 +76,7 @@ void main() {
   if (lamps > 0) light = vec3(0.15);
   for (int i = 0; i < lamps; ++i)
     light += lampColours[i] * max(0.0, dot(n, normalize(lampPlaces[i].xyz - lampPlaces[i].w * place)));
+  if (unlit) light = vec3(1);
   float edge = pow(1.0 - dot(n, v), 3.0);
   result = vec4(colour.rgb * min(light, vec3(1)) + dither(), mix(colour.a, 1.0, colour.a < 1.0 ? 0.5 * edge : 0.0));
 })";
@@ -393,6 +394,7 @@ void SceneDrawer::State::draw(const std::vector<DrawSurface>& parts, bool asWire
   place("eye", eye);
   place("inside", inside);
   glUniform1i(glGetUniformLocation(surface, "flatly"), flat);
+  glUniform1i(glGetUniformLocation(surface, "unlit"), asWires);
   glUniform1f(glGetUniformLocation(surface, "ditherStep"), static_cast<float>(steps % kPlaces.size()));
   shineOn();
   glBindVertexArray(surfaceArray);

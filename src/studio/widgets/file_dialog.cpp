@@ -55,6 +55,11 @@ void FileDialog::choose(const std::string& given) {
     return;
   }
   const bool exists = fs::exists(path, ignored);
+  if (isNew) problem_ = endingProblem(name, suffixes_);
+  if (isNew && !problem_.empty()) {
+    focusName_ = true;
+    return;
+  }
   if (purpose_ == Purpose::read && !exists) {
     problem_ = "there is no file \"" + name + "\" here";
     focusName_ = true;
@@ -121,6 +126,7 @@ void FileDialog::draw(bool escape, bool entered) {
   const bool given = ImGui::InputText("##folder", &typed, ImGuiInputTextFlags_EnterReturnsTrue);
   landmark("dialog folder");
   if ((given || ImGui::IsItemDeactivatedAfterEdit()) && typed != folder_) enter(absoluteFolder(typed));
+  if (given) focusName_ = true;
   drawEntries();
   ImGui::PushStyleColor(ImGuiCol_Text, palette().warning);
   rowName(problem_.empty() ? " " : problem_);
