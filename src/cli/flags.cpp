@@ -215,7 +215,7 @@ std::span<const Flag> flags() {
            "default), "
            "exr, ppm",
            [](Arguments& a, std::string_view value) { a.format = value; }},
-      Flag{"frames", 0, Takes::value, "A-B", "", kFrames, false,
+      Flag{"frames", 0, Takes::value, "A-B", "", kFrames, true,
            "render frames A to B of an animation, or A-B/N every Nth; the picture's name holds #### for the "
            "number; frames that are there already with the same settings are skipped, but for .bmp "
            "and .tga, which cannot say how they were made",
@@ -241,7 +241,7 @@ std::span<const Flag> flags() {
            "FLAGS",
            "",
            {Verb::farm},
-           true,
+           false,
            "flags for sbatch, with blanks between, as '--partition=short --cpus-per-task=8'",
            [](Arguments& a, std::string_view value) { a.sbatch = value; }},
       Flag{"resume", 0, Takes::optional, "auto|keep|never", "keep", kRender, true,
@@ -316,17 +316,17 @@ std::span<const Flag> flags() {
            true,
            "size of the picture; default 256x256, and 960x600 for all materials",
            setSize},
-      Flag{"across", 0, Takes::value, "X", "", kTexture, true,
+      Flag{"across", 0, Takes::value, "X", "", kTexture, false,
            "how many steps of the pattern the picture is wide; default 4 for a kind, 1 for a texture of a "
            "scene",
            [](Arguments& a, std::string_view value) { a.across = numberOf("across", value, 1e-6); }},
-      Flag{"pattern", 0, Takes::value, "FILE", "", kStereogram, true,
+      Flag{"pattern", 0, Takes::value, "FILE", "", kStereogram, false,
            "a picture to repeat instead of random dots",
            [](Arguments& a, std::string_view value) { a.pattern = value; }},
-      Flag{"dpi", 0, Takes::value, "N", "", kStereogram, true,
+      Flag{"dpi", 0, Takes::value, "N", "", kStereogram, false,
            "dots an inch of the screen, for eyes 2.5 inches apart; default 72",
            [](Arguments& a, std::string_view value) { a.dotsPerInch = wholeNumber("dpi", value, 8, 10000); }},
-      Flag{"relief", 0, Takes::value, "X", "", kStereogram, true,
+      Flag{"relief", 0, Takes::value, "X", "", kStereogram, false,
            "position of the nearest point, as a fraction of the distance from the farthest to the eyes, 0.01 "
            "to 0.9; default 0.333",
            [](Arguments& a, std::string_view value) {
@@ -335,7 +335,7 @@ std::span<const Flag> flags() {
                throw Error(Fault::usage, "--relief: expected a number from 0.01 to 0.9, found \"" +
                                              std::string(value) + "\"");
            }},
-      Flag{"guides", 0, Takes::nothing, "", "", kStereogram, true,
+      Flag{"guides", 0, Takes::nothing, "", "", kStereogram, false,
            "two dots near the lower edge: look so that they become three",
            [](Arguments& a, std::string_view) { a.guides = true; }},
       Flag{"log-level", 0, Takes::value, "error|warning|info|debug", "", kWorking, false,

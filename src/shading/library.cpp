@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/text.h"
 #include "shading/materials/coated.h"
 #include "shading/materials/conductor.h"
 #include "shading/materials/oren_nayar.h"
@@ -344,6 +345,19 @@ std::vector<std::string_view> libraryNames() {
   for (const Translucent& translucent : translucents()) names.push_back(translucent.name);
   for (const Finish& finish : kFinishes) names.push_back(finish.name);
   return names;
+}
+
+std::string nearInLibrary(std::string_view name) {
+  constexpr int kMost = 5;
+  const std::vector<std::string_view> names = libraryNames();
+  if (std::string meant = didYouMean(name, names); !meant.empty()) return meant;
+  const std::string_view word = name.substr(name.rfind(' ') + 1);  // "marble" of "carrara marble"
+  std::string hint;
+  int found = 0;
+  for (const std::string_view other : names)
+    if (other.substr(other.rfind(' ') + 1) == word && found++ < kMost)
+      hint += (hint.empty() ? "it has \"" : ", \"") + std::string(other) + "\"";
+  return hint;
 }
 
 }  // namespace trace

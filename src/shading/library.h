@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,5 +27,7 @@ std::span<const Finish> finishes();
 std::optional<Material> libraryMaterial(std::string_view name);
 /// First those that light passes, then the others.
 std::vector<std::string_view> libraryNames();
+/// A hint for a name that it does not have: one that is spelt nearly so, else those with a word of it.
+std::string nearInLibrary(std::string_view name);
 
 }  // namespace trace

@@ -13,6 +13,13 @@ cd "$folder"
 doc=usr/share/doc/trace-ray
 [[ -f "$doc/LICENSE" && -f "$doc/README.md" ]] || fail "no licence or README in $doc"
 [[ -f "$doc"/docs/ray-format.md ]] || fail "no pages"
+# The links of the installed pages lead to installed files. Indented blocks are code.
+while IFS= read -r page; do
+  while IFS= read -r target; do
+    [[ "$target" == *:* || "$target" == '#'* ]] && continue
+    [[ -e "$(dirname "$page")/${target%%#*}" ]] || fail "$page: the link $target leads nowhere"
+  done < <(awk '/^```/ { fenced = !fenced } !fenced && !/^    /' "$page" | grep -oE '\]\([^)]+\)' | sed 's/^](//; s/)$//')
+done < <(find "$doc" -name '*.md')
 for name in ray trace-ray; do
   "usr/bin/$name" --version | grep -q '^Trace ' || fail "the installed program does not run as $name"
 done

@@ -118,6 +118,15 @@ TEST_F(Cli, HelpGoesToStdout) {
     EXPECT_FALSE(contains(r.out, "--shininess-scale"));
   }
   EXPECT_EQ(files(), 1u);
+  const std::string common = run({"--help"}).out, ofRender = run({"help", "render"}).out;
+  for (const char* name : {"quality", "spp", "denoise", "exposure", "time", "time-limit", "width"}) {
+    EXPECT_TRUE(contains(common, "--" + std::string(name) + " ")) << name << ", which the tutorial uses";
+    EXPECT_TRUE(contains(ofRender, "--" + std::string(name) + " ")) << name;
+  }
+  for (const char* rare : {"--dpi", "--relief", "--guides", "--sbatch", "--across"})
+    EXPECT_FALSE(contains(common, rare)) << rare;
+  EXPECT_TRUE(contains(common, "--frames A-B"));
+  EXPECT_TRUE(contains(run({"stereogram", "--help"}).out, "--dpi N"));
   const std::string all = run({"--help", "all"}).out;
   EXPECT_EQ(all, run({"help", "all"}).out);
   for (const Option& option : options()) EXPECT_TRUE(contains(all, "--" + std::string(option.name)));
@@ -478,10 +487,10 @@ TEST_F(Cli, StatisticsKeys) {
   const json stats = json::parse(r.out);
   std::vector<std::string> keys;
   for (const auto& item : stats.items()) keys.push_back(item.key());
-  EXPECT_EQ(keys, (std::vector<std::string>{"badSamples", "end", "error", "fraction", "height", "meanDepth", "nodes",
-                                            "nodesPerRay", "output", "peakMemory", "phases", "rays",
-                                            "raysPerSecond", "scene", "seconds", "settings", "shapes",
-                                            "threads", "version", "width"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{"badSamples", "end",    "error",         "fraction", "height",
+                                            "meanDepth",  "nodes",  "nodesPerRay",   "output",   "peakMemory",
+                                            "phases",     "rays",   "raysPerSecond", "scene",    "seconds",
+                                            "settings",   "shapes", "threads",       "version",  "width"}));
   EXPECT_EQ(stats["rays"]["camera"], 50 * 40 * 9);
   EXPECT_EQ(stats["shapes"]["sphere"]["hits"], 50 * 40 * 9);
   for (const char* phase : {"read", "build", "trace", "write"})

@@ -173,6 +173,8 @@ TEST_F(TextCommands, NewWritesASceneThatIsSoundAndOverwritesNothing) {
   EXPECT_NE(written.err.find("wrote first.ray; next: ray first.ray"), std::string::npos) << written.err;
   const std::string text = readFile(path("first.ray"));
   EXPECT_TRUE(text.starts_with("Trace 1\n"));
+  EXPECT_NE(text.find("`ray first.ray` renders it"), text.npos) << "its comment names its own file";
+  EXPECT_EQ(text.find("scene.ray"), text.npos);
   EXPECT_EQ(tidied("first.ray", text), text) << "a first scene is tidy";
   EXPECT_EQ(run({"lint", "first.ray"}).code, 0) << run({"lint", "first.ray"}).out;
   EXPECT_EQ(run({"new", "first.ray"}).code, 2);

@@ -170,8 +170,22 @@ TEST(RayErrors, OfTheHeader) {
 TEST(RayErrors, OfTheKindTrace1SpeakOfItsForms) {
   const auto of = [](const std::string& text) { return errorsOfFile("Trace 1\n" + text); };
   EXPECT_NE(of("rotate 45 { sphere { } }").find("rotate y 45 { ... }"), std::string::npos);
-  EXPECT_NE(of("translate(0, 1) { sphere { } }").find("the object or a number is missing"),
-            std::string::npos);
+  EXPECT_EQ(
+      of("translate(0, 1) { sphere { } }"),
+      "2:1: expected translate(x, y, z, object) [a number is missing, as in translate(1, 2, 3) { sphere { } "
+      "}]");
+  EXPECT_EQ(
+      of("translate(1,0,0) plane { }"),
+      "2:1: expected braces after translate(1, 0, 0) [the object that it moves stands in them: translate(1, "
+      "0, 0) { sphere { } }]");
+  EXPECT_EQ(
+      of("let s = 2\nscale(s)\nsphere { }"),
+      "3:1: expected braces after scale(2) [the object that it scales stands in them: scale(2) { sphere { } "
+      "}]");
+  EXPECT_EQ(
+      of("rotate(0, 1, 0, 30) box { }"),
+      "2:1: expected braces after rotate(0, 1, 0, 30) [the object that it rotates stands in them: rotate(0, "
+      "1, 0, 30) { sphere { } }]");
   EXPECT_NE(of("sphere { material = peel }").find("let foo = material { ... }"), std::string::npos);
   EXPECT_NE(of("sphere { material = { colour = (1, 0, 0) } }").find("diffuse = (red, green, blue)"),
             std::string::npos);
@@ -196,6 +210,13 @@ TEST(RayErrors, WhatOtherProgramsSayInAnotherWayHasAHint) {
   holds("sphere { material = { colour = (1, 0, 0) } }", "diffuse = (red, green, blue) is its colour");
   holds("sphere { center = (1, 2, 3) }", "translate(1, 2, 3) { sphere { } } puts it there");
   holds("cone { position = (1, 2, 3) }", "translate(1, 2, 3) { cone { } } puts it there");
+  holds("torus { major = 2 }", "did you mean \"major_radius\"?");
+  holds("let red = (1, 0, 0)\nsphere { material = red }", "material = { diffuse = red } has that colour");
+  holds("sphere { material = (1, 0, 0) }", "material = { diffuse = (1, 0, 0) } has that colour");
+  holds("sphere { material = wood { } }",
+        "a texture is the value of a field: material = { diffuse = wood { } }");
+  holds("sphere { material = { library = \"carrara marble\" } }",
+        "it has \"marble\", \"white marble\", \"black marble\"");
   holds("torus { color = (1, 0, 0) }", "material = { diffuse = (red, green, blue) } is its colour");
   holds("sphere { material = { colr = (1, 0, 0) } }", "diffuse = (red, green, blue) is its colour");
   holds("sphere { material = { diffuse: (1, 0, 0) } }", "a field gets its value by =");

@@ -300,13 +300,13 @@ TEST(RayLanguage, ErrorsNameThePlaceAndWhatLedThere) {
       {"let pi = 3", "2:5: expected a new name, found \"pi\", which has a meaning already"},
       {"let a = 1 +", "2:12: expected a value after the operator, found the end of the file"},
       {"let a 1", "2:7: expected \"=\", found \"1\""},
-      {"for i on 1..2 { }", "2:7: expected \"in\" after the name of the loop, found \"o\""},
+      {"for i on 1..2 { }", "2:7: expected \"in\" after the name of the loop, found \"on\""},
       {"for i in 3 { sphere { } }", "2:10: expected a range such as 0..9 or a list, found 3"},
       {"let n = 3\nfor i in 0..n-1 { }",
        "3:13: no value is called \"n-1\" [write \"n - 1\": names may have dashes in them]"},
       {"translate(1 / 0, 0, 0, sphere { })", "2:13: division by 0"},
       {"translate(width / 2, 0, 0, sphere { })",
-       "2:11: no value is called \"width\" [text stands in quotation marks]"},
+       "2:11: no value is called \"width\" [let width = 1 makes one]"},
       {"define g(n) { }\ng()", "3:1: g: expected a value for n, found none [as in g(n)]"},
       {"let n = 4\nn = n + 1",
        "3:1: \"n\" has its value from test.ray:2:1 [a name gets its value once; let and another name hold "
@@ -321,7 +321,32 @@ TEST(RayLanguage, ErrorsNameThePlaceAndWhatLedThere) {
       {"let f(n) = f(n + 1)\ntranslate(f(0), 0, 0, sphere { })", nullptr},
       {"define d() { d() }\nd()", nullptr},
       {"let a = a + 1\ntranslate(a, 0, 0, sphere { })",
-       "2:9: no value is called \"a\" [text stands in quotation marks]"},
+       "2:9: no value is called \"a\" [the value of a name cannot use the name]"},
+      {"for i in 0..n { sphere { } }", "2:13: no value is called \"n\" [let n = 1 makes one]"},
+      {"translate(2 * PI, 0, 0) { sphere { } }", "2:15: no value is called \"PI\" [did you mean \"pi\"?]"},
+      {"rotate x 45 y 30 { sphere { } }",
+       "2:13: expected the object to rotate, found \"y\" [one rotation stands in the other: rotate x 45 { "
+       "rotate "
+       "y 30 { ... } }]"},
+      {"for i in 0..7 step 2 { sphere { } }",
+       "2:15: expected \"{\", found \"step\" [a range counts by 1; steps(0, 6, 4) is 0, 2, 4, 6, as in for i "
+       "in "
+       "steps(0, 6, 4) { }]"},
+      {"for i in 1..4 sphere { }",
+       "2:15: expected \"{\", found \"sphere\" [what a loop repeats stands in braces: for i in 0..3 { sphere "
+       "{ } "
+       "}]"},
+      {"define ball(r) sphere { }",
+       "2:16: expected \"{\", found \"sphere\" [what a definition makes stands in braces: define ball(r) { "
+       "scale(r) { sphere { } } }]"},
+      {"if (1 < 2) sphere { }",
+       "2:12: expected \"{\", found \"sphere\" [what a condition makes stands in braces: if (a < 1) { sphere "
+       "{ } "
+       "}]"},
+      {"for i in 0..4 { if i == 3 { sphere { } } }",
+       "2:20: expected \"(\" after if, found \"i\" [a condition stands in parentheses: if (i == 3) { }]"},
+      {"if (1 < 2) { } else if not true { }",
+       "2:24: expected \"(\" after if, found \"not\" [a condition stands in parentheses: if (not true) { }]"},
       {"camera { fov = 40 deg; } sphere { }",
        "2:16: fov: expected a number of degrees, found 40 deg [write it without deg, which makes radians]"},
       {"let r = 2\nscale(R) { sphere { } }", "3:7: no value is called \"R\" [did you mean \"r\"?]"},

@@ -203,8 +203,9 @@ std::span<const Command> commands() {
               "render a scene to a picture file; the word render may be left out", true, renderCommand,
               nullptr, "the picture; by default the scene's name with .png, in this folder"},
       Command{Verb::gui, "gui", "[SCENE]",
-              "open the studio, a window that renders and shows the rays; ray alone does too", false,
-              guiCommand},
+              "open the studio, a window that renders and shows the rays; ray alone does too, and without a "
+              "studio or a display renders a first scene",
+              false, guiCommand},
       Command{Verb::info, "info", "SCENE", "the contents of a scene, and the settings of a render", false,
               infoCommand},
       Command{Verb::bench, "bench", "SCENE",

@@ -64,12 +64,9 @@ std::string listText(const std::vector<Entry>& all) {
 }
 
 const Entry& entryOf(const std::vector<Entry>& all, const std::string& name) {
-  std::vector<std::string_view> names;
-  for (const Entry& entry : all) {
+  for (const Entry& entry : all)
     if (entry.name == name) return entry;
-    names.push_back(entry.name);
-  }
-  throw Error(Fault::usage, "ray materials: the library has no \"" + name + "\"", didYouMean(name, names));
+  throw Error(Fault::usage, "ray materials: the library has no \"" + name + "\"", nearInLibrary(name));
 }
 
 /// Balls in rows, each of one material, on a floor in a bright room.

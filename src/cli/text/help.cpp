@@ -17,8 +17,8 @@ namespace {
 constexpr size_t kIndent = 30;  // where the explanations begin
 
 /// Options on the one screen; --help all has the others.
-constexpr std::string_view kCommon[] = {"width", "height", "spp",     "depth",
-                                        "like",  "accel",  "threads", "time-limit"};
+constexpr std::string_view kCommon[] = {"quality",  "width", "height", "spp",   "depth",   "denoise",
+                                        "exposure", "time",  "like",   "accel", "threads", "time-limit"};
 
 bool isCommon(std::string_view name) {
   return std::find(std::begin(kCommon), std::end(kCommon), name) != std::end(kCommon);

@@ -120,13 +120,16 @@ Names::Found Names::find(std::string_view name, const Scoped& from) const {
 std::string Names::nameHint(std::string_view text, Scoped scope) const {
   std::vector<std::string_view> names;
   for (; scope; scope = scope->parent)
-    for (const Binding& binding : scope->bindings)
-      if (binding.name != text) names.push_back(binding.name);  // it may be the one that is being made
+    for (const Binding& binding : scope->bindings) {
+      if (binding.name == text && binding.isActive) return "the value of a name cannot use the name";
+      if (binding.name != text) names.push_back(binding.name);
+    }
+  if (text.size() > 1) names.insert(names.end(), kConstants.begin(), kConstants.end());
   std::string hint = didYouMean(text, names);
   for (const std::string_view name : names)  // also of one letter, which is like every other
     if (hint.empty() && isSameInSmallLetters(name, text))
       hint = "did you mean \"" + std::string(name) + "\"?";
-  return hint.empty() ? "text stands in quotation marks" : hint;
+  return hint.empty() ? "let " + std::string(text) + " = 1 makes one" : hint;
 }
 
 void Names::refuseDash(std::uint32_t index, const Scoped& scope) const {

@@ -127,6 +127,18 @@ struct Materials::Block {
   bool unquoted = false;        ///< a name of several words without quotation marks was met
 };
 
+/// How a colour or a texture, which is no material, is given to one.
+std::string Materials::asMaterial(const Item& value) const {
+  constexpr std::size_t kLongest = 40;
+  const std::string_view source = value.source();
+  if (!findings_.isOfKind() || source.size() > kLongest) return {};
+  if (value.is(Kind::tuple) && value.count() == 3)
+    return "material = { diffuse = " + std::string(source) + " } has that colour";
+  if (textures_.isTexture(value))
+    return "a texture is the value of a field: material = { diffuse = " + std::string(source) + " }";
+  return {};
+}
+
 NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited) {
   if (value.is(Kind::word)) {
     const auto found = named_.find(value.text());
@@ -149,7 +161,7 @@ NotedMaterial Materials::read(const Item& value, const NotedMaterial& inherited)
     return inherited;
   }
   if (!value.is(Kind::block)) {
-    findings_.expected(value, "material", "{ ... } or the name of a material");
+    findings_.expected(value, "material", "{ ... } or the name of a material", asMaterial(value));
     return inherited;
   }
 
@@ -329,7 +341,7 @@ void Materials::fromLibrary(Block& block, const Item& value) {
   if (!found) {
     std::string hint = value.source().starts_with('"') ? "" : inQuotes(name);
     block.unquoted = !hint.empty();
-    if (hint.empty()) hint = didYouMean(name, libraryNames());
+    if (hint.empty()) hint = nearInLibrary(name);
     if (hint.empty()) hint = "ray materials lists them; diffuse = (red, green, blue) makes a colour";
     findings_.error(value, "library: expected the name of a material, found " + describe(value),
                     std::move(hint));

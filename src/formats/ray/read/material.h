@@ -63,6 +63,7 @@ class Materials {
   bool studentBump(Block& block, const Item& field);
   NotedMaterial noted(Material material, const Item& block, const NotedMaterial& inherited);
   void warnOfInheritedGlass(const Item& block, const Material& inherited);
+  std::string asMaterial(const Item& value) const;
 
   Findings& findings_;
   TextureReader textures_;

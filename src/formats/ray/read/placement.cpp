@@ -62,6 +62,28 @@ std::string formOf(const Findings& findings, const TransformForm& transform) {
   return std::string(turns ? "rotate(x, y, z, degrees, object)" : transform.form);
 }
 
+/// The verb for a transform.
+std::string_view deedOf(const TransformForm& transform) {
+  return transform.name == "translate" ? "moves"
+         : transform.name == "scale"   ? "scales"
+         : transform.name == "rotate"  ? "rotates"
+                                       : "transforms";
+}
+
+/// For `translate(1, 0, 0) sphere { }`: all numbers are there, and the braces are not.
+std::optional<Item> withoutBraces(Findings& findings, const Item& call, const TransformForm& transform,
+                                  std::span<const Item> items) {
+  std::string form = std::string(transform.name) + "(";
+  for (const Item& item : items)
+    form += (form.ends_with('(') ? "" : ", ") +
+            (item.is(Kind::number) ? toText(item.number()) : std::string(item.source()));
+  form += ")";
+  findings.error(call, "expected braces after " + form,
+                 "the object that it " + std::string(deedOf(transform)) + " stands in them: " + form +
+                     " { sphere { } }");
+  return {};
+}
+
 std::optional<Item> wrongForm(Findings& findings, const Item& call, const TransformForm& transform,
                               const char* hint) {
   findings.error(call, "expected " + formOf(findings, transform), hint);
@@ -131,11 +153,15 @@ std::optional<Item> applyTransform(Findings& findings, const Item& call, Affine&
   const bool hasChild = !items.empty() && !items.back().is(Kind::number) && !items.back().is(Kind::tuple);
   if (!hasChild) {
     const bool ofKind = findings.isOfKind() && !items.empty();
+    const std::size_t count = items.size(),
+                      wanted = transform.name == "translate" || transform.name == "scale" ? 3 : 4;
+    if (ofKind && (count == wanted || (count == 1 && transform.name == "scale")))
+      return withoutBraces(findings, call, transform, items);
     return wrongForm(findings, call, transform,
                      !ofKind ? "the object is missing"
                      : transform.name == "rotate"
                          ? "as in rotate(0, 1, 0, 30) { sphere { } } or rotate y 30 { sphere { } }"
-                         : "the object or a number is missing, as in translate(1, 2, 3) { sphere { } }");
+                         : "a number is missing, as in translate(1, 2, 3) { sphere { } }");
   }
 
   const std::optional<Item> child = items.back();

@@ -72,11 +72,12 @@ std::string meant(std::string_view word, std::span<const std::string_view> known
   return instead.empty() ? didYouMean(word, known) : std::string(instead);
 }
 
-/// For a part of a field's name: of `radius`, all that end with "_radius".
+/// For a part of a field's name: of `radius`, all that end with "_radius"; of `major`, all that begin with
+/// "major_".
 std::string partOf(std::string_view word, std::span<const std::string_view> known) {
   std::string text;
   for (const std::string_view field : known)
-    if (field.ends_with("_" + std::string(word)))
+    if (field.ends_with("_" + std::string(word)) || field.starts_with(std::string(word) + "_"))
       text += (text.empty() ? "did you mean \"" : " or \"") + std::string(field) + "\"";
   return text.empty() ? text : text + "?";
 }

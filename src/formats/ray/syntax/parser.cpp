@@ -74,6 +74,18 @@ std::string shownFirst(std::string_view text) {
   return bytes > 1 && code >= 0xA0 ? quoted(text.substr(0, bytes)) : shown(text.empty() ? '\0' : text[0]);
 }
 
+/// The word that the text begins with; without one, its first character.
+std::string shownWord(std::string_view text) {
+  constexpr std::size_t kLongest = 40;
+  std::size_t length = 0;
+  while (length < std::min(text.size(), kLongest)) {
+    const std::size_t letter = letterBytes(text.substr(length));
+    if (letter == 0 && (length == 0 || !isWordPart(text[length]))) break;
+    length += letter > 0 ? letter : 1;
+  }
+  return length > 0 ? quoted(text.substr(0, length)) : shownFirst(text);
+}
+
 /// How what stands there is written in Trace, where people write it otherwise; "" elsewhere.
 std::string_view hintFor(std::string_view text) {
   for (const std::string_view quote : {"\u201c", "\u201d", "\u201e", "\u2018", "\u2019"})
@@ -225,6 +237,7 @@ class Parser {
       fail(at_, "expected the name of the loop, found " + shown('('),
            "for i in 0..4 { } makes five turns, from i = 0 to i = 4");
     if (text == "if" && peek() == '(') return statement(word, Kind::branch, &Parser::branch);
+    if (text == "if" && startsBareCondition()) failWithoutParentheses();
     if (text == "include" && peek() == '"') return statement(word, Kind::include, &Parser::included);
     if (text == "rotate" && peek() >= 'x' && peek() <= 'z' && !isWordPart(next())) return turn(word);
     if (text == "rotate" && syntax_.isOfKind() && (isDigit(peek()) || peek() == '-'))
@@ -254,7 +267,7 @@ class Parser {
     blanks();
     if (peek() != '(') failFound("expected \"(\" and the parameters, which may be none");
     brackets();
-    body();
+    body("what a definition makes stands in braces: define ball(r) { scale(r) { sphere { } } }");
   }
   void loop() {
     name();
@@ -265,11 +278,15 @@ class Parser {
     beforeBody_ = true;
     value("a range such as 0..9, or a list");
     beforeBody_ = false;
-    body();
+    blanks();
+    const bool steps = atWord("step") || atWord("by");
+    body(steps ? "a range counts by 1; steps(0, 6, 4) is 0, 2, 4, 6, as in for i in steps(0, 6, 4) { }"
+               : "what a loop repeats stands in braces: for i in 0..3 { sphere { } }");
   }
   void branch() {
+    constexpr std::string_view kForm = "what a condition makes stands in braces: if (a < 1) { sphere { } }";
     brackets();
-    body();
+    body(kForm);
     const std::size_t end = at_;
     separators();
     if (!startsWord()) return void(at_ = end);
@@ -281,13 +298,26 @@ class Parser {
     }
     nodes_.pop_back();
     blanks();
-    if (peek() == '{') return body();
+    if (peek() == '{') return body(kForm);
     const std::uint32_t again = startsWord() ? this->word() : 0;
     blanks();
+    if (again && isWord(again, "if") && startsBareCondition()) failWithoutParentheses();
     if (!again || !isWord(again, "if") || peek() != '(') failFound("expected { or if after else");
     statement(again, Kind::branch, &Parser::branch);
   }
   void included() { word(); }
+
+  /// Does what follows `if` look like a condition that is not in parentheses?
+  bool startsBareCondition() const { return letterHere() > 0 || isDigit(peek()) || peek() == '!'; }
+  [[noreturn]] void failWithoutParentheses() const {
+    constexpr std::size_t kLongest = 40;
+    const std::string_view rest = source_.substr(at_);
+    std::string_view condition = rest.substr(0, rest.find_first_of("{};\n"));
+    while (!condition.empty() && isBlank(condition.back())) condition.remove_suffix(1);
+    if (condition.empty() || condition.size() > kLongest) condition = "a < 1";
+    fail(at_, "expected \"(\" after if, found " + shownWord(rest),
+         "a condition stands in parentheses: if (" + std::string(condition) + ") { }");
+  }
 
   /// `rotate y 30 deg { }` is rotate(0, 1, 0, 30 deg, { }).
   bool turn(std::uint32_t word) {
@@ -309,10 +339,20 @@ class Parser {
     beforeBody_ = false;
     blanks();
     if (atEnd() || peek() == ')' || peek() == '}') failFound("expected the object to rotate");
+    if (peek() >= 'x' && peek() <= 'z' && !isWordPart(next())) refuseSecondAxis();
     item();
     close(arguments);
     close(word);
     return true;
+  }
+
+  /// `rotate x 45 y 30 { }`.
+  void refuseSecondAxis() const {
+    std::size_t angle = at_ + 1;
+    while (angle < source_.size() && isBlank(source_[angle])) ++angle;
+    if (angle < source_.size() && startsNumber(source_[angle]))
+      fail(at_, "expected the object to rotate, found " + shown(peek()),
+           "one rotation stands in the other: rotate x 45 { rotate y 30 { ... } }");
   }
 
   void name() {
@@ -325,9 +365,9 @@ class Parser {
     if (peek() != c) failFound("expected " + shown(c));
     ++at_;
   }
-  void body() {
+  void body(std::string_view form) {
     blanks();
-    if (peek() != '{') failFound("expected " + shown('{'));
+    if (peek() != '{') failFound("expected " + shown('{'), form);
     ++bodies_;
     brackets();
     --bodies_;
@@ -700,10 +740,11 @@ class Parser {
   }
 
   /// Reports that something else was expected here.
-  [[noreturn]] void failFound(const std::string& expected) const {
-    if (atEnd()) failAtEnd(expected.starts_with("expected ") ? expected.substr(9) : expected, {});
+  [[noreturn]] void failFound(const std::string& expected, std::string_view hint = {}) const {
+    if (atEnd())
+      failAtEnd(expected.starts_with("expected ") ? expected.substr(9) : expected, std::string(hint));
     const std::string_view rest = source_.substr(at_);
-    fail(at_, expected + ", found " + shownFirst(rest), std::string(hintFor(rest)));
+    fail(at_, expected + ", found " + shownWord(rest), std::string(hint.empty() ? hintFor(rest) : hint));
   }
 
   const Syntax& syntax_;
