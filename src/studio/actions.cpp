@@ -55,20 +55,21 @@ std::vector<std::string> sceneSuffixes() {
 }
 
 void openScene(Studio& studio) {
-  studio.dialog.open(
-      "Open a scene", FileDialog::Purpose::read, studio.workspace.document.file(), sceneSuffixes(),
-      [&studio](const std::string& file) { studio.leave([&studio, file] { studio.workspace.open(file); }); });
+  studio.dialog.open("Open a scene", FileDialog::Purpose::read, studio.workspace.document.file(),
+                     sceneSuffixes(), [&studio](const std::string& file) { leaveToOpen(studio, file); });
 }
 void newScene(Studio& studio) {
   studio.dialog.open("Write a new scene", FileDialog::Purpose::write, studio.workspace.newSceneFile(),
                      {".ray"}, [&studio](const std::string& file) {
-                       studio.leave([&studio, file] { studio.workspace.startScene(file); });
+                       studio.leave([&studio, file] { studio.workspace.startScene(file); },
+                                    "for a new scene");
                      });
 }
 void newSmallScene(Studio& studio) {
   studio.dialog.open("Write a small scene", FileDialog::Purpose::write, studio.workspace.newSceneFile(),
                      {".ray"}, [&studio](const std::string& file) {
-                       studio.leave([&studio, file] { studio.workspace.startScene(file, kSmallScene); });
+                       studio.leave([&studio, file] { studio.workspace.startScene(file, kSmallScene); },
+                                    "for a new scene");
                      });
 }
 void openReference(Studio& studio) {
@@ -154,7 +155,7 @@ constexpr std::array kActions{
         "write the view in space with its rays, their tree and the sum as .svg or .png, or as a film: .apng",
         exportStory, [](const Studio& s) { return shownPixel(s) != nullptr; }, nullptr},
     Action{"File", "Quit", 'Q', true, false, "close the studio",
-           [](Studio& s) { s.leave([&s] { s.quit = true; }); }, always, nullptr},
+           [](Studio& s) { s.leave([&s] { s.quit = true; }, "to quit"); }, always, nullptr},
     Action{"Edit", "Undo", 'Z', true, false, "take the last change back", undo,
            [](const Studio& s) { return !s.workspace.undoName().empty(); }, nullptr},
     Action{"Edit", "Redo", 'Y', true, false, "make the change again", redo,
@@ -235,7 +236,7 @@ void recentMenu(Studio& studio) {
   const auto recent = studio.workspace.recent();  // a copy: opening one changes the list
   if (!ImGui::BeginMenu("Open recent", !recent.empty())) return;
   for (const std::string& file : recent) {
-    if (ImGui::MenuItem(file.c_str())) studio.leave([&studio, file] { studio.workspace.open(file); });
+    if (ImGui::MenuItem(file.c_str())) leaveToOpen(studio, file);
     landmark("recent " + std::filesystem::path(file).filename().generic_string());
   }
   ImGui::EndMenu();

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "app/session/version.h"
@@ -84,8 +85,10 @@ void drawLeaving(Studio& studio) {
   if (studio.leaving && !ImGui::IsPopupOpen(kLeavingTitle)) ImGui::OpenPopup(kLeavingTitle);
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
   if (!ImGui::BeginPopupModal(kLeavingTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
-  ImGui::TextUnformatted(studio.workspace.document.edited() ? "There are unsaved changes."
-                                                            : "The scene's file is no longer on the disk.");
+  const Document& document = studio.workspace.document;
+  const std::string name = std::filesystem::path(document.scene().file).filename().string();
+  ImGui::Text(document.edited() ? "%s has unsaved changes." : "%s is no longer on the disk.", name.c_str());
+  ImGui::TextDisabled("You asked %s.", studio.leavingTo.c_str());
   const ImVec2 size{characters(16), 0};
   const auto close = [&] {
     ImGui::CloseCurrentPopup();

@@ -39,7 +39,7 @@ void openDropped(Studio& studio, const std::string& file) {
   if (isPicture(file))
     studio.workspace.openReference(file);
   else
-    studio.leave([&studio, file] { studio.workspace.open(file); });
+    leaveToOpen(studio, file);
 }
 
 /// Tasks in the background, and scripts, bring news without an event.
@@ -181,7 +181,7 @@ class Program {
     clickPixel();
     if (window_.closing()) {
       window_.keepOpen();
-      studio_.leave([this] { studio_.quit = true; });
+      studio_.leave([this] { studio_.quit = true; }, "to quit");
     }
     if (script_ && !script_->step(studio_)) return false;
     nameWindow();

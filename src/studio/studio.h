@@ -95,13 +95,13 @@ struct Studio {
   bool pressed(int key) const {
     return std::any_of(keys.begin(), keys.end(), [&](const KeyPress& press) { return press.key == key; });
   }
-  /// Does what loses the edits of the scene, after asking if there are any.
-  void leave(std::function<void()> then) {
-    if (workspace.unsaved())
-      leaving = std::move(then);
-    else
-      then();
+  /// Does what loses the edits of the scene, after asking if there are any. `next` says it: "to quit".
+  void leave(std::function<void()> then, const std::string& next) {
+    if (!workspace.unsaved()) return then();
+    leaving = std::move(then);
+    leavingTo = next;
   }
+  std::string leavingTo;          ///< what the question says of it
   std::function<void()> leaving;  ///< waits for an answer, or for a scene that is being saved
   /// Says in the log why a value that was typed or dragged went back; once while it is dragged on.
   void refuse(const std::string& why) {
@@ -127,6 +127,10 @@ struct Studio {
 /// The state of the scene before is dropped when another is opened: the chosen pixel, the selection.
 void followScene(Studio& studio);
 
+/// Opens the scene; before that it asks about unsaved changes.
+inline void leaveToOpen(Studio& studio, const std::string& file) {
+  studio.leave([&studio, file] { studio.workspace.open(file); }, "to open " + file);
+}
 /// Esc leaves the keyboard where it was, and Tab continues from there. Called before anything is drawn.
 void keepKeyboard(Studio& studio);
 /// Esc gives back what a drag changed, and does nothing else then. Called before anything is drawn.

@@ -42,7 +42,6 @@ struct Histogram {
   int most = 0;                                    ///< the largest of them between the ends
 };
 Histogram histogramOf(const Picture& picture);
-
 /// "RMSE 0.0123, mean 0.004, largest 0.5 at 12, 7; PSNR 38.2 dB; 12 % of pixels differ". Precondition: the
 /// same size.
 std::string differenceText(const Picture& a, const Picture& b);
@@ -62,6 +61,7 @@ struct ColourScale {
   double white = 0;          ///< the value that is white; 0: no scale
   bool logarithmic = false;  ///< logarithm of 1 + value
   std::string_view unit{};
+  bool andMore = false;  ///< larger values are white, too
 
   /// The place of a value, from 0 to 1, and the reverse.
   double shareOf(double value) const;

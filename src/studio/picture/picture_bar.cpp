@@ -45,8 +45,8 @@ void choosePlane(Studio& studio) {
   }
 }
 
-/// Switches for those who compare: the channel, and the histogram.
-void drawComparing(PictureView& view) {
+/// Switches for those who compare: the channel, and the histogram, if there is one.
+void drawComparing(PictureView& view, bool histogram) {
   ImGui::SameLine();
   roomFor(characters(13));
   ImGui::SetNextItemWidth(characters(13));
@@ -55,11 +55,12 @@ void drawComparing(PictureView& view) {
     view.channel = static_cast<ShownChannel>(channel);
   landmark("channel");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("all channels, or one of them as grey");
+  if (!histogram) return;
   ImGui::SameLine();
   roomFor(ImGui::GetFrameHeight() + ImGui::CalcTextSize("histogram").x + ImGui::GetStyle().ItemSpacing.x);
   ImGui::Checkbox("histogram", &view.histogramShown);
   landmark("histogram");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("how many pixels have each level, from 0 to 1");
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("how many pixels have each level of what is seen");
 }
 
 }  // namespace
@@ -113,7 +114,8 @@ void drawBar(Studio& studio) {
     return;
   }
   choosePlane(studio);
-  if (comparesPictures(studio)) drawComparing(view);
+  if (comparesPictures(studio) && !view.showsPlane())
+    drawComparing(view, !studio.workspace.reference() || hasHistogram(view.view));
   if (!studio.workspace.reference()) {
     ImGui::SameLine();
     roomFor(ImGui::CalcTextSize("Compare...").x + 2 * ImGui::GetStyle().FramePadding.x);

@@ -54,6 +54,15 @@ void refreshPlane(Studio& studio, bool pictureChanged) {
   view.planeTexture.set(toBytes(view.planeMade.colours, Rounding::nearest));
 }
 
+double histogramEnd(const PictureView& view, View of) {
+  return of == View::difference ? 1 / static_cast<double>(view.magnify) : 1;
+}
+
+Picture magnified(Picture picture, double factor) {
+  for (Color& c : picture.pixels) c = c * factor;
+  return picture;
+}
+
 /// Brings the textures up to date.
 void refresh(Studio& studio) {
   PictureView& view = studio.picture;
@@ -75,7 +84,6 @@ void refresh(Studio& studio) {
     view.levels = developed(view.shown, developmentOf(settings));
   if (view.shown.width > 0 && (pictureChanged || toneChanged)) {
     view.pictureTexture.set(exposed(channelOf(view.levels, view.channel), view.exposure, settings.rounding));
-    view.histogram = histogramOf(view.levels);
   }
   refreshPlane(studio, pictureChanged);
   const auto& reference = workspace.reference();
@@ -105,6 +113,16 @@ void refresh(Studio& studio) {
     view.differenceTexture.set(toBytes(difference, Rounding::nearest));
     view.differenceView = view.view;
     view.differenceMagnify = view.magnify;
+  }
+  const View histogramView = reference ? view.view : View::picture;
+  if (view.shown.width > 0 && hasHistogram(histogramView) &&
+      (pictureChanged || toneChanged || referenceChanged || view.histogramView != histogramView ||
+       view.histogramEnd != histogramEnd(view, histogramView))) {
+    view.histogramView = histogramView;
+    view.histogramEnd = histogramEnd(view, histogramView);
+    view.histogram = histogramOf(histogramView == View::difference  ? magnified(view.difference, view.magnify)
+                                 : histogramView == View::reference ? channelOf(*reference, view.channel)
+                                                                    : channelOf(view.levels, view.channel));
   }
   view.referenceVersion = workspace.referenceVersion();
   view.exposed = view.exposure;
@@ -207,10 +225,10 @@ constexpr float kNowhere = 1e9f;
 /// The room that scales take.
 float uprightScale() {
   return ImGui::GetTextLineHeight() + 4 * ImGui::GetStyle().FramePadding.x +
-         ImGui::CalcTextSize("0.00000").x + 8;
+         ImGui::CalcTextSize("> 0.00000").x + 8;
 }
 float flatScale(float across) {
-  const bool fits = across > (kSteps + 3) * ImGui::CalcTextSize("0.00000").x;
+  const bool fits = across > (kSteps + 3) * ImGui::CalcTextSize("> 0.00000").x;
   return fits ? 2.5f * ImGui::GetTextLineHeight() + 8 : kNowhere;
 }
 
@@ -221,13 +239,15 @@ ImU32 bandColour(Color (*colourAt)(double), int band) {
 }
 
 std::string scaleNumber(const ColourScale& scale, int step) {
-  return ColourScale{scale.white, scale.logarithmic}.text(scale.valueAt(step / double{kSteps}));
+  const std::string number =
+      ColourScale{scale.white, scale.logarithmic}.text(scale.valueAt(step / double{kSteps}));
+  return (step == kSteps && scale.andMore ? "> " : "") + number;
 }
 
 /// The scale of false colours, which `colourAt` gives for places from 0 to 1, at the right edge.
 void drawScale(ImVec2 low, ImVec2 high, const ColourScale& scale, Color (*colourAt)(double)) {
   const float line = ImGui::GetTextLineHeight(), bar = line, pad = ImGui::GetStyle().FramePadding.x;
-  const float wide = bar + 3 * pad + ImGui::CalcTextSize("0.00000").x,
+  const float wide = bar + 3 * pad + ImGui::CalcTextSize("> 0.00000").x,
               top = std::max(low.y + 2.5f * line, (low.y + high.y) / 2 - 6 * line),
               bottom = std::min(high.y - 2 * line, top + 12 * line);
   if (bottom < top + kSteps * line) return;
@@ -255,7 +275,7 @@ void drawFlatScale(float left, float right, float top, const ColourScale& scale,
   const float line = ImGui::GetTextLineHeight(), pad = ImGui::GetStyle().FramePadding.x;
   const std::string unit(scale.unit);
   const float head = unit.empty() ? 0 : ImGui::CalcTextSize(unit.c_str()).x + 2 * pad;
-  const float number = ImGui::CalcTextSize("0.00000").x,
+  const float number = ImGui::CalcTextSize("> 0.00000").x,
               wide = std::min(right - left - head - number - 2 * pad, 12 * number);
   if (wide < kSteps * number) return;
   const ImVec2 at{std::round((left + right - wide + head) / 2), top + 8};
@@ -278,7 +298,7 @@ void drawFlatScale(float left, float right, float top, const ColourScale& scale,
   if (!unit.empty()) list.AddText({at.x - head, at.y}, IM_COL32_WHITE, unit.c_str());
 }
 
-/// The levels of the picture, in the lower right corner: heights are logarithms of the counts.
+/// The levels of what is seen, in the lower right corner: heights are logarithms of the counts.
 void drawHistogram(const Studio& studio, ImVec2 low, ImVec2 high) {
   const Histogram& histogram = studio.picture.histogram;
   const ImVec2 size{std::min(characters(34), (high.x - low.x) * 0.6f),
@@ -290,7 +310,8 @@ void drawHistogram(const Studio& studio, ImVec2 low, ImVec2 high) {
   constexpr ImU32 kColours[] = {IM_COL32(255, 90, 90, 255), IM_COL32(90, 220, 90, 255),
                                 IM_COL32(110, 150, 255, 255)};
   const auto most = static_cast<float>(math::log1p(histogram.most));
-  for (std::size_t channel = 0; channel < 3; ++channel) {
+  const bool grey = studio.picture.channel != ShownChannel::all;
+  for (std::size_t channel = 0; channel < (grey ? 1 : 3); ++channel) {
     ImVec2 line[Histogram::kBins];
     for (std::size_t bin = 0; bin < Histogram::kBins; ++bin) {
       const float share =
@@ -298,8 +319,13 @@ void drawHistogram(const Studio& studio, ImVec2 low, ImVec2 high) {
       line[bin] = {corner.x + 4 + (size.x - 8) * static_cast<float>(bin) / (Histogram::kBins - 1),
                    corner.y + size.y - 4 - (size.y - 8) * share};
     }
-    list.AddPolyline(line, Histogram::kBins, kColours[channel], 0, 1.5f);
+    list.AddPolyline(line, Histogram::kBins, grey ? IM_COL32_WHITE : kColours[channel], 0, 1.5f);
   }
+  char end[16];
+  std::snprintf(end, sizeof end, "%.3g", studio.picture.histogramEnd);
+  constexpr ImU32 kQuiet = IM_COL32(255, 255, 255, 160);
+  list.AddText({corner.x + 4, corner.y + 2}, kQuiet, "0");
+  list.AddText({corner.x + size.x - 4 - ImGui::CalcTextSize(end).x, corner.y + 2}, kQuiet, end);
 }
 
 void zoomAndPan(PictureView& view, const FrameArea& frame) {
@@ -357,8 +383,11 @@ InPlaceOfPicture inPlaceOfPicture(const Studio& studio) {
 }
 
 /// The picture or pictures in the area; true with the pixel if the cursor is on one.
-bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
+bool drawCanvas(Studio& studio, ImVec2 whole, ImVec2 room, int& x, int& y) {
   PictureView& view = studio.picture;
+  // Below the caption, which had this height in the last frame.
+  const ImVec2 canvas{whole.x, whole.y + view.captionHigh};
+  ImVec2 area{room.x, std::max(1.0f, room.y - view.captionHigh)};
   const auto& reference = studio.workspace.reference();
   const int width = view.shown.width, height = view.shown.height;
   const InPlaceOfPicture other = inPlaceOfPicture(studio);
@@ -373,10 +402,12 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   ImVec2 part{two ? std::max(1.0f, (area.x - kGap) / 2) : area.x, area.y};
   ScalePlace scalePlace = ScalePlace::beside;
   if (scaled && view.fit) {  // a picture that is enlarged has no place of its own for it
-    const FrameArea whole = frameOf(view, canvas, part, width, height);
+    const FrameArea fitted = frameOf(view, canvas, part, width, height);
     scalePlace =
-        placeScale({area.x, area.y}, {whole.size.x, whole.size.y}, uprightScale(), flatScale(area.x));
+        placeScale({area.x, area.y}, {fitted.size.x, fitted.size.y}, uprightScale(), flatScale(area.x));
     if (scalePlace == ScalePlace::over) part.x = std::max(area.x / 2, area.x - uprightScale());
+  } else if (scaled) {
+    part.x = area.x = std::max(area.x / 2, area.x - uprightScale());
   }
   const FrameArea frame = frameOf(view, canvas, part, width, height);
   const FrameArea second{{frame.low.x + part.x + kGap, frame.low.y}, frame.size};
@@ -409,29 +440,33 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
       view.swipe = std::clamp((ImGui::GetIO().MousePos.x - left) / (right - left), 0.0f, 1.0f);
   }
   if (differs && mode != View::picture) clipped(canvas, end, frame, view.differenceTexture);
-  const ImVec2 corner{canvas.x + 8, canvas.y + 8};
-  float clear = canvas.y;  // below the caption
+  const ImVec2 corner{whole.x + 8, whole.y + 4};
+  float clear = canvas.y;  // below names of pictures
+  float captionEnd = whole.y - 4;
   if (!other.caption.empty()) {
-    clear = caption(corner, other.caption.c_str(), area.x - 16);
+    captionEnd = caption(corner, other.caption.c_str(), room.x - 16);
     landmark("caption");
   } else if (refused) {
-    clear = caption(corner,
-                    ("not compared: the reference has another shape, " + std::to_string(reference->width) +
-                     " x " + std::to_string(reference->height) + "; the picture has " +
-                     std::to_string(width) + " x " + std::to_string(height))
-                        .c_str(),
-                    area.x - 16);
+    captionEnd = caption(corner,
+                         ("not compared: the reference has another shape, " +
+                          std::to_string(reference->width) + " x " + std::to_string(reference->height) +
+                          "; the picture has " + std::to_string(width) + " x " + std::to_string(height))
+                             .c_str(),
+                         room.x - 16);
     landmark("caption");
   } else if (two || mode == View::swipe) {
-    clear = caption(corner, "picture", area.x);
+    clear = caption({canvas.x + 8, canvas.y + 8}, "picture", area.x);
     const float wide = ImGui::CalcTextSize("reference").x + 2 * ImGui::GetStyle().FramePadding.x;
-    caption({end.x - wide - 8, corner.y}, "reference", area.x);
+    caption({end.x - wide - 8, canvas.y + 8}, "reference", area.x);
   } else if (mode != View::picture) {
-    const std::string text =
-        std::string(kViewNames[static_cast<int>(mode)]) + (differs ? ": " + view.errors : std::string());
-    clear = caption(corner, text.c_str(), area.x - 16);
+    const bool largest = mode == View::falseColour && view.channel == ShownChannel::all;
+    const std::string text = std::string(kViewNames[static_cast<int>(mode)]) +
+                             (largest ? " of the largest difference of the channels" : "") +
+                             (differs ? ": " + view.errors : std::string());
+    captionEnd = caption(corner, text.c_str(), room.x - 16);
     landmark("caption");
   }
+  view.captionHigh = captionEnd + 4 - whole.y;
   const Picture& linear = studio.workspace.referenceIsLinear() || !reference ? view.shown : view.levels;
   if (!other.texture) {
     if (mode == View::reference) {
@@ -447,14 +482,17 @@ bool drawCanvas(Studio& studio, ImVec2 canvas, ImVec2 area, int& x, int& y) {
   if (heat) numbersInPixels(studio, frame, {canvas.x, clear}, end, view.planeMade.values, 1);
   if (scaled) {
     const ColourScale scale =
-        heat ? view.planeMade.scale : ColourScale{1 / static_cast<double>(view.magnify)};
+        heat ? view.planeMade.scale
+             : ColourScale{.white = 1 / static_cast<double>(view.magnify), .andMore = true};
     const auto colours = heat ? heatColor : falseColour;
     if (scalePlace == ScalePlace::below)
       drawFlatScale(frame.low.x, frame.low.x + frame.size.x, frame.low.y + frame.size.y, scale, colours);
     else
-      drawScale({canvas.x, clear}, end, scale, colours);
+      drawScale({canvas.x, clear}, {whole.x + room.x, end.y}, scale, colours);
   }
-  if (view.histogramShown && comparesPictures(studio) && !studio.stage) drawHistogram(studio, canvas, end);
+  if (view.histogramShown && comparesPictures(studio) && !studio.stage && !other.texture &&
+      hasHistogram(mode))
+    drawHistogram(studio, canvas, end);
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const FrameArea& under = two && mouse.x > canvas.x + part.x ? second : frame;

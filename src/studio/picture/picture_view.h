@@ -16,6 +16,11 @@ enum class View { picture, reference, sideBySide, swipe, difference, falseColour
 inline constexpr const char* kViewNames[] = {"Picture", "Reference",  "Side by side",
                                              "Swipe",   "Difference", "False colour"};
 
+/// Other views show several pictures at once, or colours that mean something else.
+constexpr bool hasHistogram(View view) {
+  return view == View::picture || view == View::reference || view == View::difference;
+}
+
 struct PictureView {
   View view = View::picture;
   FilmPlane plane = FilmPlane::picture;  ///< what of the render is seen
@@ -32,6 +37,7 @@ struct PictureView {
 
   // The contents of the textures.
   Texture pictureTexture, referenceTexture, differenceTexture;
+  float captionHigh = 0;    ///< height of the caption above the picture, in the last frame
   float optionsHeight = 0;  ///< height of the options below the picture, in the last frame
   bool waits = false;       ///< for the first picture of a scene
   Picture shown;            ///< linear colours of the render
@@ -43,10 +49,12 @@ struct PictureView {
   Development development;
   Rounding rounding = Rounding::truncate;
   ShownChannel channelShown = ShownChannel::all;
-  Histogram histogram;   ///< histogram of the levels
-  std::string errors{};  ///< how far the picture and the reference are apart
-  Picture reference{};   ///< the reference, with as many pixels as the picture; empty if its shape differs
-  Picture difference{};  ///< difference of the two, not magnified
+  Histogram histogram;  ///< histogram of the levels that are seen
+  View histogramView = View::picture;
+  double histogramEnd = 1;  ///< level at its right end
+  std::string errors{};     ///< how far the picture and the reference are apart
+  Picture reference{};      ///< the reference, with as many pixels as the picture; empty if its shape differs
+  Picture difference{};     ///< difference of the two, not magnified
   View differenceView = View::picture;
   float differenceMagnify = 0;
 

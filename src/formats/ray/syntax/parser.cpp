@@ -284,9 +284,9 @@ class Parser {
                : "what a loop repeats stands in braces: for i in 0..3 { sphere { } }");
   }
   void branch() {
-    constexpr std::string_view kForm = "what a condition makes stands in braces: if (a < 1) { sphere { } }";
+    constexpr std::string_view kCondition = "what a condition makes stands in braces: if (a < 1) { sphere { } }";
     brackets();
-    body(kForm);
+    body(kCondition);
     const std::size_t end = at_;
     separators();
     if (!startsWord()) return void(at_ = end);
@@ -298,7 +298,7 @@ class Parser {
     }
     nodes_.pop_back();
     blanks();
-    if (peek() == '{') return body(kForm);
+    if (peek() == '{') return body(kCondition);
     const std::uint32_t again = startsWord() ? this->word() : 0;
     blanks();
     if (again && isWord(again, "if") && startsBareCondition()) failWithoutParentheses();
