@@ -29,7 +29,9 @@ TEST(AnimatedPng, NumbersItsChunksInTheirOrder) {
   forEachPngChunk(film.finish(), [&](std::string_view type, std::string_view data) {
     types += std::string(type) + " ";
     if (type == "fcTL" || type == "fdAT") numbers.push_back(static_cast<unsigned char>(data[3]));
-    if (type == "fcTL") EXPECT_EQ(static_cast<unsigned char>(data[21]), 25) << "hundredths of a second";
+    if (type == "fcTL") {
+      EXPECT_EQ(static_cast<unsigned char>(data[21]), 25) << "hundredths of a second";
+    }
   });
   EXPECT_EQ(types, "IHDR acTL fcTL IDAT fcTL fdAT fcTL fdAT IEND ");
   EXPECT_EQ(numbers, (std::vector<int>{0, 1, 2, 3, 4}));

@@ -24,7 +24,9 @@ TEST(Letters, EveryCharacterHasOneOfItsOwnWithinItsLine) {
         strokes += std::to_string(p.x) + " " + std::to_string(p.y) + " ";
       }
     EXPECT_FALSE(strokes.empty()) << letter;
-    if (c != 'I' && c != 'l' && c != '|') EXPECT_TRUE(known.insert(strokes).second) << letter;
+    if (c != 'I' && c != 'l' && c != '|') {
+      EXPECT_TRUE(known.insert(strokes).second) << letter;
+    }
   }
 }
 

@@ -135,6 +135,8 @@ void RayStory::addSpace(Drawing& drawing, int rays, double grown) const {
       if (grows) segment.to = segment.from + (segment.to - segment.from) * grown;
       const Real share = std::clamp(maxComponent(node.weight) / whole, 0.0, 1.0);
       const double width = 1.5 + 3.5 * std::sqrt(share) + (segment.node == rays - 1 ? 1.5 : 0);
+      if (node.kind == RayKind::camera)  // a rim, so that it is seen on dark surfaces, too
+        panel.line(drawing, segment.from, segment.to, Color(1), width + 3, segment.leaves);
       panel.line(drawing, segment.from, segment.to, look(segment.looks).color, width, segment.leaves);
       panel.arrowHead(drawing, segment.from, segment.to, look(segment.looks).color, 8 + 2 * width);
       if (node.hit && !grows) panel.disk(drawing, node.hit->surface.point, 4, look(segment.looks).color);

@@ -284,7 +284,8 @@ class Parser {
                : "what a loop repeats stands in braces: for i in 0..3 { sphere { } }");
   }
   void branch() {
-    constexpr std::string_view kCondition = "what a condition makes stands in braces: if (a < 1) { sphere { } }";
+    constexpr std::string_view kCondition =
+        "what a condition makes stands in braces: if (a < 1) { sphere { } }";
     brackets();
     body(kCondition);
     const std::size_t end = at_;
