@@ -139,12 +139,11 @@ std::optional<Rectangle> shownOf(const Box3& box, const CameraFrame& camera) {
   return shown;
 }
 
-/// The share of the smaller one that both have.
-Real shareOfBoth(const Rectangle& a, const Rectangle& b) {
+/// The share of the first that lies before or behind the second.
+Real sharedPart(const Rectangle& a, const Rectangle& b) {
   const Rectangle both{{std::max(a.low.x, b.low.x), std::max(a.low.y, b.low.y)},
                        {std::min(a.high.x, b.high.x), std::min(a.high.y, b.high.y)}};
-  const Real smaller = std::min(a.area(), b.area());
-  return smaller > 0 && both.high.x > both.low.x && both.high.y > both.low.y ? both.area() / smaller : 0;
+  return a.area() > 0 && both.high.x > both.low.x && both.high.y > both.low.y ? both.area() / a.area() : 0;
 }
 
 /// An object may stand there with room around it.
@@ -160,7 +159,8 @@ std::optional<Affine> placedAmong(const Box3& bounds, const CameraFrame& camera,
                                   const std::vector<Box3>& others, const LookAt& lookAt) {
   constexpr int kPlaces = 17;               // along each side of the picture
   constexpr Real kRim = 0.02, kFlat = 0.8;  // shares of the picture; least cosine
-  constexpr Real kHides = 2, kNarrow = 1;   // against the distance from the middle, across and in depth
+  // Against the distance from the middle: across, and by the logarithm in depth, which counts twice.
+  constexpr Real kHides = 2, kNarrow = 4, kDepth = 2;
   const Vec3 up = upOf(updir);
   const auto distanceTo = [&](const SeenObject& seen) { return length(seen.surface.point - camera.eye); };
   const auto middle = lookAt({0.5, 0.5});
@@ -173,7 +173,7 @@ std::optional<Affine> placedAmong(const Box3& bounds, const CameraFrame& camera,
       if (cost >= least) continue;
       const auto seen = lookAt(place);
       if (!seen || std::abs(dot(seen->surface.normal, up)) < kFlat) continue;
-      if (middle) cost += std::abs(math::log(distanceTo(*seen) / distanceTo(*middle)));
+      if (middle) cost += kDepth * std::abs(math::log(distanceTo(*seen) / distanceTo(*middle)));
       const Vec3& foot = seen->surface.point;
       const Affine placed = Affine::translation(foot) * Affine::scaling(Vec3(1, 1, 1) * smaller) *
                             Affine::translation(-foot) *
@@ -187,7 +187,7 @@ std::optional<Affine> placedAmong(const Box3& bounds, const CameraFrame& camera,
       for (const Box3& other : others) {
         if (other == seen->box || isRoom(other, own, camera.eye)) continue;
         const auto hidden = shownOf(other, camera);
-        cost += overlap(own, other) ? kInfinity : hidden ? kHides * shareOfBoth(*shown, *hidden) : 0;
+        cost += overlap(own, other) ? kInfinity : hidden ? kHides * sharedPart(*shown, *hidden) : 0;
       }
       if (cost >= least) continue;
       least = cost;

@@ -58,10 +58,14 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
     ImGui::SetTooltip("the rays one after the other, in the order of tracing (P)");
   }
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-  if (ImGui::ArrowButton("back", ImGuiDir_Left)) stepRays(studio, -1);
+  const auto stepByHand = [&](int rays) {
+    view.playsAt = -1;
+    stepRays(studio, rays);
+  };
+  if (ImGui::ArrowButton("back", ImGuiDir_Left)) stepByHand(-1);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("one ray back in the order of tracing");
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
-  if (ImGui::ArrowButton("on", ImGuiDir_Right)) stepRays(studio, 1);
+  if (ImGui::ArrowButton("on", ImGuiDir_Right)) stepByHand(1);
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("the next ray in the order of tracing");
   ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
   int step = view.step < 0 ? count : view.step;
@@ -73,10 +77,10 @@ void drawHead(Studio& studio, const TracedPixel& pixel) {
   const int before = step;
   if (ImGui::DragInt("##step", &step, 0.1f, 1, count, format, ImGuiSliderFlags_AlwaysClamp)) {
     view.step = before;
-    stepRays(studio, step - before);
+    stepByHand(step - before);
   }
   ImGui::SameLine();
-  if (ImGui::Button("All")) view.step = -1;
+  if (ImGui::Button("All")) view.step = view.playsAt = -1;
 }
 
 void drawBoxes(Studio& studio) {
