@@ -126,7 +126,9 @@ TEST_F(WorkspaceTest, ANewSceneIsWrittenAndOpenedButOverNoFile) {
   ASSERT_TRUE(settled(workspace));
   EXPECT_EQ(workspace.document.file(), path("first.ray"));
   EXPECT_GT(workspace.document.scene().objects.size(), 3u);
-  EXPECT_TRUE(std::filesystem::exists(path("first.ray")));
+  const std::string written = readFile(path("first.ray"));
+  EXPECT_NE(written.find("`ray first.ray` renders it"), std::string::npos) << written;
+  EXPECT_EQ(written.find("scene.ray"), std::string::npos) << "it is called otherwise";
   EXPECT_EQ(workspace.newSceneFile(), path("scene-2.ray"));
   workspace.startScene(path("small.ray"), kSmallScene);
   ASSERT_TRUE(settled(workspace));

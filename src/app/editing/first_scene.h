@@ -1,6 +1,7 @@
 // The scene that `ray new` and the menu of the studio write.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace trace {
@@ -65,5 +66,14 @@ ambient_light { color = (0.2, 0.2, 0.2) }
 plane { name = "floor"; material = { diffuse = (0.6, 0.6, 0.6); ambient = (0.6, 0.6, 0.6) } }
 translate(0, 1, 0) { sphere { name = "ball"; material = { diffuse = (0.8, 0.3, 0.2); ambient = (0.8, 0.3, 0.2) } } }
 )";
+
+/// Such a text for a file of that name: its comments call it so, not scene.ray.
+inline std::string sceneNamed(std::string_view text, std::string_view name) {
+  constexpr std::string_view kName = "scene.ray";
+  std::string named(text);
+  for (std::size_t at = named.find(kName); at != named.npos; at = named.find(kName, at + name.size()))
+    named.replace(at, kName.size(), name);
+  return named;
+}
 
 }  // namespace trace

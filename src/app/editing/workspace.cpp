@@ -103,7 +103,7 @@ void Workspace::startScene(const std::string& file, std::string_view text) {
     if (fs::exists(path))
       throw Error(Fault::usage, SourcePlace{.file = path}, "not written: there is such a file",
                   "a new scene overwrites nothing; choose another name");
-    writeFile(path, std::string(text));
+    writeFile(path, sceneNamed(text, fs::path(path).filename().generic_string()));
   });
 }
 

@@ -41,15 +41,6 @@ void deliver(const std::string& text, const std::string& output, const Console& 
   console.line(LogLevel::info, "wrote " + output);
 }
 
-/// The first scene, whose comment names its own file.
-std::string firstSceneOf(const std::string& name) {
-  constexpr std::string_view kName = "scene.ray";
-  std::string text(kFirstScene);
-  for (std::size_t at = text.find(kName); at != text.npos; at = text.find(kName, at + name.size()))
-    text.replace(at, kName.size(), name);
-  return text;
-}
-
 }  // namespace
 
 int newCommand(const Arguments& arguments, const Console& console) {
@@ -67,7 +58,7 @@ int newCommand(const Arguments& arguments, const Console& console) {
                 "there is a file \"" + file.generic_string() + "\", and ray new overwrites nothing",
                 "ray new other.ray");
   checkWritable(file.generic_string());
-  writeFile(file.generic_string(), firstSceneOf(file.filename().generic_string()));
+  writeFile(file.generic_string(), sceneNamed(kFirstScene, file.filename().generic_string()));
   console.last(true, "wrote " + file.generic_string() + "; next: ray " + file.generic_string());
   return kDone;
 }

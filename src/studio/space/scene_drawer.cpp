@@ -35,7 +35,7 @@ void main() {
   gl_Position = matrix * vec4(position, 1);
 })";
 
-/// A number as shaders are told it.
+/// A number in the text of a shader.
 std::string precise(double number) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9f", number);
