@@ -157,7 +157,7 @@ class Program {
       return state(studio_);
     });
     host::keepWith([this] { return keptScene(studio_); });
-    studio_.start.folder = host::examples();
+    studio_.workspace.examples = studio_.start.folder = host::examples();
     studio_.configFolder = folder_;
     ImGui::GetIO().IniFilename = folder_.empty() ? nullptr : ini_.c_str();
     if (!folder_.empty()) restore(studio_);

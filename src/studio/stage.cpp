@@ -11,6 +11,7 @@
 #include "studio/rays/ray_rows.h"
 #include "studio/space/rays_view.h"
 #include "studio/studio.h"
+#include "studio/widgets/field_editor.h"
 #include "studio/widgets/landmarks.h"
 
 namespace trace::studio {
@@ -20,19 +21,24 @@ namespace {
 void drawCaption(Studio& studio) {
   const RaysView& view = studio.rays;
   const TracedPixel* pixel = shownPixel(studio);
-  ImGui::PushTextWrapPos();
+  const float room = ImGui::GetContentRegionAvail().x;
+  const std::string keys = "Space: the next ray. P: all, one after the other. Z: magnify. F11 or Esc: back.";
   if (!pixel) {
-    ImGui::TextDisabled(
-        "Click on the picture. Space: the next ray. P: all, one after the other. Z: magnify. F11 or Esc: "
-        "back.");
-  } else if (const int ray = view.step - 1; view.step > 0 && ray < static_cast<int>(view.rays)) {
-    ImGui::TextColored(rayColour(studio, *pixel, ray), "%d of %d  %s", view.step, static_cast<int>(view.rays),
-                       stepOf(pixel->tree(), pixel->scene(), ray).c_str());
+    ImGui::TextDisabled("%s", inLines("Click on the picture. " + keys, room).c_str());
   } else {
-    ImGui::TextUnformatted(pixel->why.sentence.c_str());
+    const std::string sample = sampleText(*pixel), of = sample.empty() ? "" : "  (" + sample + ")";
+    const int ray = view.step - 1;
+    if (view.step > 0 && ray < static_cast<int>(view.rays)) {
+      const std::string count = std::to_string(view.step) + " of " + std::to_string(view.rays) + "  ";
+      ImGui::TextColored(rayColour(studio, *pixel, ray), "%s",
+                         inLines(count + stepOf(pixel->tree(), pixel->scene(), ray) + of, room).c_str());
+    } else {
+      ImGui::TextUnformatted(inLines(pixel->why.sentence + of, room).c_str());
+    }
+    drawSum(studio, *pixel);
+    if (ImGui::GetContentRegionAvail().y >= ImGui::GetTextLineHeight() && view.step < 0)
+      ImGui::TextDisabled("%s", shortened(keys, room).c_str());
   }
-  ImGui::PopTextWrapPos();
-  if (pixel) drawSum(studio, *pixel);
   landmark("stage caption");
 }
 

@@ -189,5 +189,18 @@ TEST(PictureViews, PassesThatWereRenderedCanBeSeen) {
   EXPECT_NE(normals.legend.find("normal"), std::string::npos);
 }
 
+TEST(PictureViews, DifferencesAreMagnifiedUntilTheyAreSeen) {
+  Picture apart(20, 20);
+  EXPECT_EQ(magnificationFor(apart), 1);
+  for (Color& c : apart.pixels) c = {0.01, 0.02, 0};
+  EXPECT_EQ(magnificationFor(apart), 32);  // 0.64 of white
+  apart.at(3, 3) = Color(1);               // one pixel of 400 may be white
+  EXPECT_EQ(magnificationFor(apart), 32);
+  for (Color& c : apart.pixels) c = Color(3);
+  EXPECT_EQ(magnificationFor(apart), 1);
+  for (Color& c : apart.pixels) c = Color(1e-9);
+  EXPECT_EQ(magnificationFor(apart), 128);
+}
+
 }  // namespace
 }  // namespace trace::test

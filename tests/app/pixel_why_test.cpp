@@ -136,7 +136,7 @@ TEST(PixelWhy, ASurfaceThatFacesAwaySaysSo) {
 TEST(PixelWhy, TotalReflectionIsNamedAndNoNormalIsBlamed) {
   for (const auto& [x, y] : {std::pair{60, 110}, std::pair{150, 150}}) {
     const PixelWhy why = traced(kGlassScene, {.width = 360, .depth = 8}, x, y).why;
-    EXPECT_EQ(why.sentence, "Black: total internal reflection: the ray cannot leave glass box there.");
+    EXPECT_EQ(why.sentence, "Black: the ray cannot leave glass box there (total internal reflection).");
     EXPECT_EQ(why.ray, 1);
   }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "formats/ray/write/transform.h"
 #include "shading/cameras/camera.h"
 
 namespace trace::test {
@@ -100,6 +101,20 @@ TEST(Placing, ANewObjectStandsBesideOthersAndNotInThem) {
   EXPECT_GE(freedFrom({wide}, own, view, camera.updir).y, 0.9);
 }
 
+TEST(Placing, APlaceInShortNumbersIsTheSamePlace) {
+  const Affine turn = upright("cone", {0, 1, 0});
+  for (const Real factor : {1.0, 0.46016123456, 1234.56789})
+    for (const Vec3& at : {Vec3{}, Vec3{-0.893634567, 0, 0.53428123}, Vec3{1e-17, 0.3, -40.123456789}}) {
+      const Affine placed = Affine::translation(at) * Affine::scaling(Vec3(1, 1, 1) * factor) * turn;
+      const Affine said = rayfile::inShortNumbers(placed, 5);
+      for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, 1, 0}})
+        EXPECT_LE(length(said * p - placed * p), 6e-5 * (factor + length(at)));
+      const std::vector<rayfile::TransformStep> steps = rayfile::stepsOf(said);
+      for (const rayfile::TransformStep& step : steps)
+        EXPECT_NE(step.kind, rayfile::TransformStep::Kind::matrix);
+    }
+}
+
 TEST(Placing, ANewObjectStandsOnTheFloorBesideOthersAndIsSeenWhole) {
   Camera camera;
   camera.position = {0, 3, 8}, camera.viewdir = {0, -2, -8}, camera.fov = 40;
@@ -142,6 +157,21 @@ TEST(Placing, ANewObjectStandsOnTheFloorBesideOthersAndIsSeenWhole) {
     others.push_back(own);
   }
   EXPECT_FALSE(placedAmong(unit, view, camera.updir, others, [](const Vec2&) { return std::nullopt; }));
+}
+
+TEST(Placing, ANewObjectDoesNotHangBelowABall) {
+  Camera camera;
+  camera.position = {0, 1.6, 7}, camera.viewdir = {0, -0.7, -7}, camera.fov = 30;
+  const CameraFrame view = frame(camera, CameraAxes::orthonormal);
+  // Nothing but the lower side of a ball, which the camera sees from a distance.
+  const auto lookAt = [&](const Vec2& place) -> std::optional<SeenObject> {
+    if (length(Vec3{place.x, place.y, 0} - Vec3{0.3, 0.3, 0}) > 0.1) return {};
+    SeenObject seen{{}, {{-2.1, 0, -1}, {-0.1, 2, 1}}};
+    seen.surface.point = {-0.89, 0.18, 0.53};
+    seen.surface.normal = seen.surface.shading = {0.21, -0.82, 0.53};
+    return seen;
+  };
+  EXPECT_FALSE(placedAmong({{-1, -1, -1}, {1, 1, 1}}, view, camera.updir, {}, lookAt));
 }
 
 TEST(Placing, ShapesAlongTheirZAxisStand) {

@@ -187,6 +187,21 @@ TEST(SceneModel, HasEveryObjectInItsPlace) {
   EXPECT_FALSE(sameModel(scene, painted));
 }
 
+TEST(SceneModel, EdgesOfGlassAreSharp) {
+  Phong glass, clay;
+  glass.transmissive = Color(0.9);
+  const auto creases = [&](auto shape, const Phong& material) {
+    Scene scene;
+    addObject(scene, shape, {}, material);
+    return SceneModeler{}.model(scene).creases.size();
+  };
+  EXPECT_GE(creases(Cube{}, glass), 12u);
+  EXPECT_EQ(creases(Cube{}, glass) % 12, 0u) << "each edge in as many pieces";
+  EXPECT_EQ(creases(Cube{}, clay), 0u);
+  EXPECT_EQ(creases(Sphere{}, glass), 0u);
+  EXPECT_GT(creases(Square{}, glass), 3u) << "its border";
+}
+
 TEST(SceneModel, PartsOfASolidHaveTheirOwnMaterials) {
   const auto material = [](const Color& diffuse, const Color& transmissive) {
     Phong phong;

@@ -103,5 +103,16 @@ TEST(Room, FromOutsideTheNearWallIsNotThereAndTheFarOneIs) {
   }
 }
 
+TEST(Room, AViewThatShowsRaysWellIsKnown) {
+  Camera camera;
+  camera.position = {0, 0, 10}, camera.viewdir = {0, 0, -1}, camera.fov = 40;
+  const CameraFrame view = frame(camera, CameraAxes::orthonormal);
+  const std::vector<Vec3> hits{{1, 1, 0}, {-1, 0, 0}};
+  EXPECT_TRUE(showsWell(view, {{-2, -2, -1}, {2, 2, 1}}, hits));
+  EXPECT_FALSE(showsWell(view, {{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}}, hits)) << "a dot";
+  EXPECT_FALSE(showsWell(view, {{-2, -2, -1}, {2, 2, 1}}, {{9, 0, 0}})) << "beside it";
+  EXPECT_FALSE(showsWell(view, {{-2, -2, -1}, {2, 2, 20}}, hits)) << "behind the eye";
+}
+
 }  // namespace
 }  // namespace trace::test

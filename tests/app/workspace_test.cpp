@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -759,15 +760,46 @@ TEST_F(WorkspaceTest, WhatIsBeingSavedIsSavedWhenTheWindowCloses) {
 TEST_F(WorkspaceTest, OtherFilesAreWrittenInTheBackgroundToo) {
   Workspace workspace;
   ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "40", {}}}));
-  workspace.saveBy(path("rays.svg"), [file = path("rays.svg")] { writeFile(file, "<svg/>"); });
+  workspace.saveBy(path("rays.svg"),
+                   [file = path("rays.svg")](const Advance&) { writeFile(file, "<svg/>"); });
   EXPECT_TRUE(settled(workspace));
   EXPECT_EQ(readFile(path("rays.svg")), "<svg/>");
   bool written = false;
-  workspace.saveBy(path("scene.ray"), [&] { written = true; });
+  workspace.saveBy(path("scene.ray"), [&](const Advance&) { written = true; });
   EXPECT_FALSE(settled(workspace));
   EXPECT_FALSE(written);
-  workspace.saveBy(path("none/rays.svg"), [file = path("none/rays.svg")] { writeFile(file, "<svg/>"); });
+  workspace.saveBy(path("none/rays.svg"),
+                   [file = path("none/rays.svg")](const Advance&) { writeFile(file, "<svg/>"); });
   EXPECT_FALSE(settled(workspace));
+}
+
+TEST_F(WorkspaceTest, AFilmThatIsGivenUpIsNotWrittenAndSaysHowFarItIsBefore) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "40", {}}}));
+  std::atomic<bool> stopped = false;
+  workspace.saveBy(path("film.apng"), [&](const Advance& advance) {
+    while (advance(0.25)) std::this_thread::yield();
+    stopped = true;
+  });
+  while (workspace.savingShare() == 0) std::this_thread::yield();
+  EXPECT_EQ(workspace.savingShare(), 0.25);
+  workspace.stopSaving();
+  EXPECT_TRUE(settled(workspace)) << "this is no failure";
+  EXPECT_TRUE(stopped);
+  EXPECT_NE(workspace.log().back().text.find("film.apng was not written"), std::string::npos);
+  EXPECT_TRUE(workspace.takeWritten().empty());
+  EXPECT_EQ(workspace.savingShare(), 0);
+}
+
+TEST_F(WorkspaceTest, NothingNewIsProposedAmongTheExamples) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "40", {}}}));
+  EXPECT_EQ(workspace.defaultPictureFile(), path("scene.png"));
+  workspace.examples = std::filesystem::path(path("scene.ray")).parent_path().generic_string();
+  const std::string here = std::filesystem::current_path().generic_string();
+  EXPECT_EQ(workspace.defaultPictureFile(), here + "/scene.png");
+  EXPECT_EQ(workspace.defaultSceneFile(), here + "/scene.ray");
+  EXPECT_TRUE(workspace.newSceneFile().starts_with(here + "/scene")) << workspace.newSceneFile();
 }
 
 TEST_F(WorkspaceTest, WhatTheSceneIsMadeOfIsNotWrittenOver) {

@@ -13,6 +13,7 @@
 #include "formats/ray_patch_helpers.h"
 #include "geometry/shapes/solids/cone.h"
 #include "geometry/shapes/solids/sphere.h"
+#include "shading/library.h"
 #include "shading/lights/point_light.h"
 #include "shading/textures/brick.h"
 #include "shading/textures/checker.h"
@@ -460,6 +461,30 @@ TEST(RayPatch, AMaterialOfCopiesIsChangedWhereItIsSaid) {
           if (m.name == "wood") m.model.edit<Phong>()->diffuse.r = 0.5;
       },
       1);
+}
+
+TEST(RayPatch, AMaterialOfTheLibraryIsWrittenByItsName) {
+  for (const char* header : {"SBT-raytracer 1.0\n", "Trace 1\n"}) {
+    const SceneText read = reading("test.ray", std::string(header) + "sphere { }\nbox { }\n");
+    for (const std::string_view name : libraryNames()) {
+      for (const bool changed : {false, true}) {
+        const auto give = [&](Scene& s) {
+          Material material = *libraryMaterial(name);
+          material.name = std::string(name);
+          if (changed) material.opacity = 0.5;
+          s.materials.push_back(material);
+          s.objects[0].material = static_cast<std::uint32_t>(s.materials.size() - 1);
+        };
+        const Saved result = edited(read, give);
+        EXPECT_NE(result.text.find("library = \"" + std::string(name)), std::string::npos) << result.text;
+        Scene wanted = *read.scene;
+        give(wanted);
+        const auto again = reading("test.ray", result.text);
+        EXPECT_TRUE(rayfile::sameObject(*again.scene, again.scene->objects[0], wanted, wanted.objects[0]))
+            << result.text;
+      }
+    }
+  }
 }
 
 constexpr const char* kLamps = R"(SBT-raytracer 1.0

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <string_view>
 
 #include "base/find_field.h"
 #include "formats/directions.h"
+#include "geometry/mesh/tessellate.h"
 #include "math/elementary.h"
 #include "shading/frame.h"
 
@@ -38,7 +41,30 @@ bool isFactor(Real factor) { return std::abs(factor) <= 1e6 && std::abs(factor) 
 
 Affine stretched(const Affine& placed, const Vec3& factors) { return placed * Affine::scaling(factors); }
 
+Affine withoutNoise(const Affine& placed) {
+  const auto clean = [](Vec3& v, Real size) {
+    constexpr int kDigits = 12;
+    char text[40];
+    for (int i = 0; i < 3; ++i) {
+      std::snprintf(text, sizeof text, "%.*e", kDigits - 1, v[i]);
+      v[i] = std::abs(v[i]) < 1e-13 * size ? 0 : std::strtod(text, nullptr);
+    }
+  };
+  Affine result = placed;
+  Real size = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      size = std::max({size, std::abs(placed.row[i][j]), std::abs(placed.offset[j])});
+  clean(result.offset, size);
+  return result;
+}
+
 bool keepsObject(const Affine& placed) { return isFinite(placed.offset) && invertible(placed); }
+
+/// On the side that the eye sees.
+static Vec3 normalToward(const Vec3& eye, const SurfacePoint& seen) {
+  return dot(seen.normal, seen.point - eye) > 0 ? -seen.normal : seen.normal;
+}
 
 Affine placedInSight(const Box3& bounds, const CameraFrame& camera, const Vec3& updir,
                      const std::optional<SurfacePoint>& there, Real ahead) {
@@ -52,7 +78,7 @@ Affine placedInSight(const Box3& bounds, const CameraFrame& camera, const Vec3& 
   const Vec3 up = upOf(updir);
   Vec3 side = up;
   if (there) {
-    const Vec3 facing = dot(there->normal, at - camera.eye) > 0 ? -there->normal : there->normal;
+    const Vec3 facing = normalToward(camera.eye, *there);
     if (dot(facing, up) < 0.5) side = facing;  // a wall: before it, not on it
   }
   const Vec3 half = bounds.size() * (factor / 2);
@@ -108,6 +134,19 @@ Vec3 freedFrom(const std::vector<Box3>& others, const Box3& own, const CameraFra
   for (int i = 1; i <= 2 * kSteps; ++i)
     if (const Vec3 by = up * (step * i); isFree(by)) return by;
   return {};
+}
+
+Box3 boxOf(const Object& object) {
+  constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+  const Box3 own = drawnBounds(object.shape, kEverywhere);
+  return own.empty() || own.unbounded() ? own : object.worldFromObject * own;
+}
+
+std::vector<Box3> boxesOf(const Scene& scene) {
+  std::vector<Box3> boxes;
+  for (const Object& object : scene.objects)
+    if (const Box3 box = boxOf(object); !box.empty() && !box.unbounded()) boxes.push_back(box);
+  return boxes;
 }
 
 Affine upright(std::string_view shape, const Vec3& updir) {
@@ -172,7 +211,7 @@ std::optional<Affine> placedAmong(const Box3& bounds, const CameraFrame& camera,
       Real cost = math::hypot(place.x - 0.5, place.y - 0.5);
       if (cost >= least) continue;
       const auto seen = lookAt(place);
-      if (!seen || std::abs(dot(seen->surface.normal, up)) < kFlat) continue;
+      if (!seen || dot(normalToward(camera.eye, seen->surface), up) < kFlat) continue;
       if (middle) cost += kDepth * std::abs(math::log(distanceTo(*seen) / distanceTo(*middle)));
       const Vec3& foot = seen->surface.point;
       const Affine placed = Affine::translation(foot) * Affine::scaling(Vec3(1, 1, 1) * smaller) *

@@ -9,6 +9,7 @@
 #include "geometry/ray.h"
 #include "math/box.h"
 #include "math/transform.h"
+#include "scene/scene.h"
 #include "shading/cameras/camera.h"
 #include "shading/lights/light.h"
 
@@ -23,9 +24,17 @@ bool isFactor(Real factor);
 /// Stretched along the object's own axes. Precondition: the factors are such.
 Affine stretched(const Affine& placed, const Vec3& factors);
 
+/// Without what only rounding left: 2.8e-17 beside 1, or 0.30000000000000004.
+Affine withoutNoise(const Affine& placed);
+
 /// An object that is placed so is still there when the scene is read again: the transform is finite and does
 /// not make it flat.
 bool keepsObject(const Affine& placed);
+
+/// The box of an object in the world; an endless one is everywhere.
+Box3 boxOf(const Object& object);
+/// Boxes of the objects that have an end.
+std::vector<Box3> boxesOf(const Scene& scene);
 
 /// Turns a shape whose axis is its own z, such as a cone, so that it stands upright for a camera; others
 /// stay.

@@ -107,8 +107,16 @@ void Workspace::startScene(const std::string& file, std::string_view text) {
   });
 }
 
-std::string Workspace::newSceneFile() const {
+fs::path Workspace::folderForFiles() const {
   const fs::path folder = document.isOpen() ? fs::path(document.file()).parent_path() : fs::current_path();
+  const fs::path own(examples);
+  const bool ofExamples =
+      !own.empty() && std::mismatch(own.begin(), own.end(), folder.begin(), folder.end()).first == own.end();
+  return ofExamples ? fs::current_path() : folder;
+}
+
+std::string Workspace::newSceneFile() const {
+  const fs::path folder = folderForFiles();
   fs::path file = folder / "scene.ray";
   for (int i = 2; fs::exists(file); ++i) file = folder / ("scene-" + std::to_string(i) + ".ray");
   return file.generic_string();
@@ -331,13 +339,20 @@ void Workspace::savePicture(const std::string& file) {
   });
 }
 
-void Workspace::saveBy(const std::string& file, std::function<void()> write) {
-  saving_.start([file, inputs = document.scene().inputs, write = std::move(write)](const Cancelled&) {
-    return outcomeOf(file, [&] {
+void Workspace::saveBy(const std::string& file, std::function<void(const Advance&)> write) {
+  saving_.start([file, inputs = document.scene().inputs, write = std::move(write), share = savingShare_,
+                 stopped = savingStopped_](const Cancelled&) {
+    *stopped = false;
+    const auto outcome = outcomeOf(file, [&] {
       checkIsNoInput(file, inputs);
-      write();
-      return Saved{{file}};
+      write([&](double part) {
+        *share = part;
+        return !*stopped;
+      });
+      return *stopped ? Saved{.files = {}, .stopped = file} : Saved{{file}};
     });
+    *share = 0;
+    return outcome;
   });
 }
 
@@ -373,6 +388,8 @@ void Workspace::takeSaved() {
       note("wrote " + shown(file) + (outcome->value->anew ? " anew: it was no longer on the disk" : ""));
       written_.push_back(file);
     }
+    if (!outcome->value->stopped.empty())
+      note("stopped: " + shown(outcome->value->stopped) + " was not written");
     if (!outcome->value->scene) continue;
     document.noteSaved(*outcome->value->scene);
     gone_ = false;
@@ -488,13 +505,16 @@ void Workspace::noteEnd() {
 }
 
 std::string Workspace::defaultPictureFile() const {
-  return document.isOpen() ? fs::path(document.file()).replace_extension(".png").generic_string()
-                           : "picture.png";
+  if (!document.isOpen()) return "picture.png";
+  const fs::path name = fs::path(document.file()).filename();
+  return (folderForFiles() / name).replace_extension(".png").generic_string();
 }
 
 std::string Workspace::defaultSceneFile() const {
-  if (!document.isOpen() || document.savesOverItsFile()) return document.file();
-  const std::string stem = fs::path(document.file()).replace_extension().generic_string();
+  if (!document.isOpen()) return document.file();
+  const fs::path beside = folderForFiles() / fs::path(document.file()).filename();
+  if (document.savesOverItsFile()) return beside.generic_string();
+  const std::string stem = fs::path(beside).replace_extension().generic_string();
   std::string file = stem + ".ray";
   for (int i = 1; fs::exists(file); ++i) file = stem + "-trace" + (i > 1 ? std::to_string(i) : "") + ".ray";
   return file;

@@ -6,9 +6,11 @@
 // counts; what is saved is saved in turn, also when the Workspace goes.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,13 +32,15 @@ class Workspace {
   void open(const std::string& file);
   /// Writes a first scene to a file that does not exist yet, and opens it.
   void startScene(const std::string& file, std::string_view text = kFirstScene);
-  /// "scene.ray" in the folder of the document, or the current one; or a name there that no file has.
+  /// "scene.ray" in the folder of the document, or the current one where that is of the examples; or a name
+  /// there that no file has.
   std::string newSceneFile() const;
   /// Called often: takes what was done in the background, renders after changes, reads the file again when it
   /// changed on disk, collects messages.
   void update();
 
   std::vector<Choice> commandLine;  ///< options that hold over those of every file that is opened
+  std::string examples;             ///< folder of the program's own scenes, where no new file is proposed
   Document document;
   BackgroundRender render;
   PixelInspector inspector;
@@ -90,7 +94,11 @@ class Workspace {
   void savePicture(const std::string& file);
   /// Writes another file than picture and scene in the background: `write` does, and may throw. No file of
   /// the scene is written over.
-  void saveBy(const std::string& file, std::function<void()> write);
+  void saveBy(const std::string& file, std::function<void(const Advance&)> write);
+  /// The share that is written of a file that takes long; 0 of any other.
+  double savingShare() const { return *savingShare_; }
+  /// Gives up a file that takes long.
+  void stopSaving() { *savingStopped_ = true; }
   /// Writes the scene as a .ray file, which is the document's from now on.
   void saveScene(const std::string& file);
   /// Over its own file, unless that has changed since it was read: then it is read again first. Precondition:
@@ -175,9 +183,11 @@ class Workspace {
   struct Saved {
     std::vector<std::string> files;
     std::optional<Document::Saved> scene{};
-    bool anew = false;  ///< the file was there once, and was gone
+    bool anew = false;      ///< the file was there once, and was gone
+    std::string stopped{};  ///< a file that somebody gave up
   };
 
+  std::filesystem::path folderForFiles() const;  ///< for those that are proposed
   void openFrom(const std::string& path, const std::function<void()>& first);
   void takeOpened();
   void openIfMended();
@@ -223,6 +233,8 @@ class Workspace {
   BackgroundTask<Completed> completing_;
   BackgroundTask<Outcome<Reference>> loading_;
   std::vector<std::string> written_;
+  std::shared_ptr<std::atomic<double>> savingShare_ = std::make_shared<std::atomic<double>>(0);
+  std::shared_ptr<std::atomic<bool>> savingStopped_ = std::make_shared<std::atomic<bool>>(false);
   BackgroundTask<Outcome<Saved>> saving_{Jobs::all};
 };
 

@@ -136,7 +136,7 @@ class Search {
       const std::string object = thing(scene_, node.hit->object);
       Loss loss{weight * kGuess * lost,
                 ray,
-                "total internal reflection: the ray cannot leave " + object + " there",
+                "the ray cannot leave " + object + " there (total internal reflection)",
                 {select(scene_, node.hit->object)}};
       if (settings_.fresnel == Fresnel::constant) loss.cures.push_back(byOption("fresnel", "exact"));
       offer(std::move(loss));

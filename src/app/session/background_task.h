@@ -20,6 +20,9 @@ namespace trace {
 /// Asked now and then by a long job; true: the answer is not needed any more.
 using Cancelled = std::function<bool()>;
 
+/// Told now and then by a long job which share of it is done; false: it is to stop.
+using Advance = std::function<bool(double)>;
+
 /// Which jobs of a BackgroundTask are done.
 enum class Jobs { newest, all };
 

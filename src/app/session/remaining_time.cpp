@@ -23,7 +23,10 @@ std::optional<double> RemainingTime::update(double elapsed, double fraction, dou
   if (fraction < kLeastFraction) return {};
   constexpr double kSmoothing = 8;  // the estimate settles over this part of the time elapsed
   const double onAverage = elapsed / fraction - elapsed;  // if the rest continues as until now
-  const double ofLate = recent_ > 0 ? (1 - fraction) * (recentTime_ + waiting) / recent_ : onAverage;
+  constexpr double kSlower = 6;                           // a pause is no measure of the rest
+  const double ofLate =
+      recent_ > 0 ? std::min((1 - fraction) * (recentTime_ + waiting) / recent_, kSlower * onAverage)
+                  : onAverage;
   const double steady = std::max(onAverage, ofLate);
   if (!left_) {
     left_ = steady;

@@ -59,18 +59,28 @@ Affine about(const Vec3& center, const Affine& linearPart) {
   return Affine::translation(center) * linearPart * Affine::translation(-center);
 }
 
+/// Steps of drags, so that short numbers come out: a hundredth of a handle's length or less, to a power of
+/// ten; a degree; a hundredth.
+constexpr Real kFactorStep = 0.01;
+Real inSteps(Real value, Real step) { return std::round(value / step) * step; }
+Real stepOf(const Gizmo& gizmo) {
+  return math::pow(10, std::floor(math::log(gizmo.size / 100) / math::log(10.0)));
+}
+
 std::optional<Affine> moved(const Gizmo& gizmo, int handle, const CameraFrame& view, const Vec2& from,
                             const Vec2& to) {
   if (handle == Gizmo::kWhole) {
     const Vec3 normal = normalize(view.look);
     const auto a = onPlane(gizmo, normal, view, from), b = onPlane(gizmo, normal, view, to);
     if (!a || !b) return {};
-    return Affine::translation(*b - *a);
+    const Vec3 by = *b - *a;
+    const Real step = stepOf(gizmo);
+    return Affine::translation({inSteps(by.x, step), inSteps(by.y, step), inSteps(by.z, step)});
   }
   const Vec3& axis = gizmo.axes[static_cast<std::size_t>(handle)];
   const auto a = alongAxis(gizmo, axis, view, from), b = alongAxis(gizmo, axis, view, to);
   if (!a || !b) return {};
-  return Affine::translation(axis * (*b - *a));
+  return Affine::translation(axis * inSteps(*b - *a, stepOf(gizmo)));
 }
 
 /// The angle about the axis between two places, in its plane, or on the screen if that is seen from its edge.
@@ -95,7 +105,7 @@ std::optional<Affine> turnedBy(const Gizmo& gizmo, int handle, const CameraFrame
                                             : gizmo.axes[static_cast<std::size_t>(handle)];
   const auto angle = angleBetween(gizmo, axis, view, from, to);
   if (!angle) return {};
-  return about(gizmo.center, Affine::rotation(axis, *angle));
+  return about(gizmo.center, Affine::rotation(axis, inSteps(*angle, kPi / 180)));
 }
 
 std::optional<Affine> scaled(const Gizmo& gizmo, int handle, const CameraFrame& view, const Vec2& from,
@@ -105,14 +115,14 @@ std::optional<Affine> scaled(const Gizmo& gizmo, int handle, const CameraFrame& 
     if (!center) return {};
     // As if the handle, which is at the center, were as far out as the axes are long.
     const Real dx = (to.x - from.x) * length(view.right) / length(view.up), dy = to.y - from.y;
-    const Real factor = math::exp2((dx + dy) / kShare);
+    const Real factor = inSteps(math::exp2((dx + dy) / kShare), kFactorStep);
     if (!isFactor(factor)) return {};
     return about(gizmo.center, Affine::scaling(Vec3(1, 1, 1) * factor));
   }
   const Vec3& axis = gizmo.axes[static_cast<std::size_t>(handle)];
   const auto a = alongAxis(gizmo, axis, view, from), b = alongAxis(gizmo, axis, view, to);
   if (!a || !b || *a == 0) return {};
-  const Real factor = *b / *a;
+  const Real factor = inSteps(*b / *a, kFactorStep);
   if (!(factor > 0) || !isFactor(factor)) return {};
   Affine along;
   for (int i = 0; i < 3; ++i) along.row[i] = along.row[i] + axis * ((factor - 1) * axis[i]);

@@ -55,16 +55,23 @@ void Panel::disk(Drawing& drawing, const Vec3& point, double radius, const Color
   if (const auto at = placeOf(point)) drawing.things.push_back(DrawnDisk{*at, radius, color});
 }
 
-void Panel::arrowHead(Drawing& drawing, const Vec3& from, const Vec3& to, const Color& color,
-                      double size) const {
+void Panel::arrowHead(Drawing& drawing, const Vec3& from, const Vec3& to, const Color& color, double size,
+                      double rim) const {
   constexpr Real kBefore = 0.5, kTip = 0.55;  // shares of the way
   const auto before = placeOf(from + (to - from) * kBefore), tip = placeOf(from + (to - from) * kTip);
   if (!before || !tip) return;
   const double dx = tip->x - before->x, dy = tip->y - before->y, far = math::hypot(dx, dy);
   if (far < 1) return;
-  const double x = dx / far * size, y = dy / far * size;
-  drawing.things.push_back(DrawnTriangle{
-      *tip, {tip->x - x - y / 2, tip->y - y + x / 2}, {tip->x - x + y / 2, tip->y - y - x / 2}, color});
+  const double x = dx / far, y = dy / far;
+  const auto head = [&](double ahead, double behind, double half, const Color& tint) {
+    const Point2 base{tip->x - x * behind, tip->y - y * behind};
+    drawing.things.push_back(DrawnTriangle{{tip->x + x * ahead, tip->y + y * ahead},
+                                           {base.x - y * half, base.y + x * half},
+                                           {base.x + y * half, base.y - x * half},
+                                           tint});
+  };
+  if (rim > 0) head(2 * rim, size + rim, size / 2 + 1.6 * rim, Color(1));
+  head(0, size, size / 2, color);
 }
 
 /// In a projection that bends lines, or from two eyes: piece by piece.

@@ -30,8 +30,9 @@ class Panel {
   std::optional<Point2> toward(const Vec3& point) const;
   /// The place of a mark at the edge of the view in that direction.
   Point2 edgeAt(const Point2& toward, double margin) const;
-  /// A head at a share of the way, which shows where a ray goes.
-  void arrowHead(Drawing& drawing, const Vec3& from, const Vec3& to, const Color& color, double size) const;
+  /// A head at a share of the way, which shows where a ray goes; with a white rim, if it has a width.
+  void arrowHead(Drawing& drawing, const Vec3& from, const Vec3& to, const Color& color, double size,
+                 double rim = 0) const;
   void disk(Drawing& drawing, const Vec3& point, double radius, const Color& color) const;
 
  private:

@@ -220,6 +220,20 @@ Picture clamped(Picture levels) {
   return levels;
 }
 
+double magnificationFor(const Picture& difference) {
+  constexpr double kMost = 128, kWhite = 0.01;  // kWhite: share of the pixels that differ
+  std::vector<double> most;
+  for (const Color& c : difference.pixels)
+    if (const double value = maxComponent(c); value > 0) most.push_back(std::isfinite(value) ? value : 1);
+  if (most.empty()) return 1;
+  const auto at =
+      most.begin() + static_cast<std::ptrdiff_t>((1 - kWhite) * static_cast<double>(most.size() - 1));
+  std::nth_element(most.begin(), at, most.end());
+  double factor = 1;
+  while (factor < kMost && 2 * factor * *at <= 1) factor *= 2;
+  return factor;
+}
+
 Picture differences(const Picture& a, const Picture& b, double magnify) {
   Picture picture(a.width, a.height);
   const auto apart = [&](double x, double y) { return x == y ? 0 : std::abs(x - y) * magnify; };

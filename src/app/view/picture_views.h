@@ -24,6 +24,10 @@ std::string pixelText(const Color& linear, const Color& toned, Rounding rounding
 /// |a - b| * magnify for each channel. Precondition: the same size.
 Picture differences(const Picture& a, const Picture& b, double magnify);
 
+/// The power of two by which differences are magnified so that they are seen and few are white; from 1 to
+/// 128. `difference` is not magnified.
+double magnificationFor(const Picture& difference);
+
 /// The largest difference of the channels of each pixel, times `magnify`: black where there is none, then
 /// blue, green, yellow, red, and white from 1 on. Precondition: the same size.
 Picture falseColours(const Picture& a, const Picture& b, double magnify);

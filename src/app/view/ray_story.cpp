@@ -138,7 +138,8 @@ void RayStory::addSpace(Drawing& drawing, int rays, double grown) const {
       if (node.kind == RayKind::camera)  // a rim, so that it is seen on dark surfaces, too
         panel.line(drawing, segment.from, segment.to, Color(1), width + 3, segment.leaves);
       panel.line(drawing, segment.from, segment.to, look(segment.looks).color, width, segment.leaves);
-      panel.arrowHead(drawing, segment.from, segment.to, look(segment.looks).color, 8 + 2 * width);
+      panel.arrowHead(drawing, segment.from, segment.to, look(segment.looks).color, 8 + 2 * width,
+                      node.kind == RayKind::camera ? 1.5 : 0);
       if (node.hit && !grows) panel.disk(drawing, node.hit->surface.point, 4, look(segment.looks).color);
     }
   panel.disk(drawing, tree.nodes.front().ray.origin, 5, kInk);
@@ -311,7 +312,7 @@ double RayStory::addSum(Drawing& drawing, int rays, double most) const {
   return y + kRowHigh;
 }
 
-std::string filmOf(const RayStory& story) {
+std::string filmOf(const RayStory& story, const Advance& advance) {
   constexpr int kMostPictures = 60, kGrowth = 4;            // kGrowth: pictures of one ray
   constexpr double kEach = 1.7, kGrowing = 0.1, kLast = 8;  // seconds: time to speak
   AnimatedPng film;
@@ -323,14 +324,18 @@ std::string filmOf(const RayStory& story) {
     for (int part = 1; part < kGrowth && step == 1; ++part)
       add(story.after(rays, part / double{kGrowth}), kGrowing);
     add(story.after(rays), rays < story.rays() ? kEach : kLast);
+    if (advance && !advance(static_cast<double>(rays) / story.rays())) return "";
     if (rays == story.rays()) return film.finish();
   }
 }
 
-void writeStory(const std::string& file, const RayStory& story) {
+void writeStory(const std::string& file, const RayStory& story, const Advance& advance) {
   if (const std::string problem = endingProblem(file, kStorySuffixes); !problem.empty())
     throw Error(Fault::usage, problem);
-  if (endingProblem(file, {".apng"}).empty()) return writeFile(file, filmOf(story));
+  if (endingProblem(file, {".apng"}).empty()) {
+    if (const std::string film = filmOf(story, advance); !film.empty()) writeFile(file, film);
+    return;
+  }
   writeDrawing(file, story.whole());
 }
 

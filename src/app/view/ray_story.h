@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/explain/pixel_inspector.h"
+#include "app/session/background_task.h"
 #include "app/view/drawing.h"
 #include "app/view/panel.h"
 #include "shading/cameras/camera.h"
@@ -42,15 +43,15 @@ class RayStory {
 };
 
 /// The film in which one ray after the other grows, as an animated PNG. Where there are many, several appear
-/// at a time.
-std::string filmOf(const RayStory& story);
+/// at a time. "" if `advance` stopped it.
+std::string filmOf(const RayStory& story, const Advance& advance = {});
 
 /// The endings of files that a story is written to.
 inline const std::vector<std::string> kStorySuffixes{".svg", ".png", ".apng"};
 
 /// Writes the film as .apng, or the whole drawing, by the file's ending. Throws Error(Fault::usage) for
-/// another ending, and Error(Fault::io).
-void writeStory(const std::string& file, const RayStory& story);
+/// another ending, and Error(Fault::io). A film that `advance` stopped is not written.
+void writeStory(const std::string& file, const RayStory& story, const Advance& advance = {});
 
 /// The camera of a scene that sees what the frame shows. Precondition: the frame is orthogonal.
 Camera cameraOf(const CameraFrame& frame, Real aspect);

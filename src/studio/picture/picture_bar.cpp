@@ -55,12 +55,15 @@ void drawComparing(PictureView& view, bool histogram) {
     view.channel = static_cast<ShownChannel>(channel);
   landmark("channel");
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("all channels, or one of them as grey");
-  if (!histogram) return;
   ImGui::SameLine();
   roomFor(ImGui::GetFrameHeight() + ImGui::CalcTextSize("histogram").x + ImGui::GetStyle().ItemSpacing.x);
+  ImGui::BeginDisabled(!histogram);  // else what follows would move
   ImGui::Checkbox("histogram", &view.histogramShown);
+  ImGui::EndDisabled();
   landmark("histogram");
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("how many pixels have each level of what is seen");
+  if (ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip(histogram ? "how many pixels have each level of what is seen"
+                                : "only of one picture, or of the difference of two");
 }
 
 }  // namespace
@@ -135,9 +138,14 @@ void drawBar(Studio& studio) {
     ImGui::SameLine();
     roomFor(characters(14));
     ImGui::SetNextItemWidth(characters(14));
-    ImGui::DragFloat("##magnify", &view.magnify, std::max(0.1f, view.magnify / 100), 1, 255, "x %.0f");
+    if (ImGui::DragFloat("##magnify", &view.magnify, std::max(0.1f, view.magnify / 100), 1, 255,
+                         view.magnifyChosen ? "x %.0f" : "x %.0f, auto"))
+      view.magnifyChosen = true;
     escapable(view.magnify);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("drag: by which differences are magnified");
+    if (ImGui::IsItemHovered())
+      ImGui::SetTooltip("drag: by which differences are magnified\nright click: as many times as shows them");
+    if (ImGui::IsItemClicked(1)) view.magnifyChosen = false;
+    landmark("magnify");
   }
 }
 

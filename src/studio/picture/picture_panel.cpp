@@ -99,13 +99,14 @@ void refresh(Studio& studio) {
   const bool compares = view.view == View::difference || view.view == View::falseColour;
   if (compares && reference && sameSize(view.shown, view.reference) &&
       (pictureChanged || toneChanged || referenceChanged || view.differenceView != view.view ||
-       view.differenceMagnify != view.magnify)) {
+       view.differenceMagnify != view.magnify || view.differenceChosen != view.magnifyChosen)) {
     const bool colours = view.view == View::falseColour;
     const Picture picture = workspace.referenceIsLinear() ? view.shown : clamped(view.levels);
     const Picture seen = channelOf(picture, view.channel), other = channelOf(view.reference, view.channel);
-    const Picture difference =
-        colours ? falseColours(seen, other, view.magnify) : differences(seen, other, view.magnify);
     view.difference = differences(seen, other, 1);
+    if (!view.magnifyChosen) view.magnify = static_cast<float>(magnificationFor(view.difference));
+    const Picture difference =
+        colours ? falseColours(seen, other, view.magnify) : magnified(view.difference, view.magnify);
     view.errors = differenceText(seen, other);
     if (!sameSize(*reference, view.shown))
       view.errors += "; the reference was resampled from " + std::to_string(reference->width) + " x " +
@@ -113,6 +114,7 @@ void refresh(Studio& studio) {
     view.differenceTexture.set(toBytes(difference, Rounding::nearest));
     view.differenceView = view.view;
     view.differenceMagnify = view.magnify;
+    view.differenceChosen = view.magnifyChosen;
   }
   const View histogramView = reference ? view.view : View::picture;
   if (view.shown.width > 0 && hasHistogram(histogramView) &&
@@ -143,10 +145,15 @@ struct FrameArea {
   }
 };
 
-FrameArea frameOf(PictureView& view, ImVec2 canvas, ImVec2 area, int width, int height) {
+/// `whole` and `room`: the panel, in which a picture that is enlarged stays when captions and scales come.
+FrameArea frameOf(PictureView& view, ImVec2 whole, ImVec2 room, ImVec2 canvas, ImVec2 area, int width,
+                  int height) {
   if (view.fit) {
     view.zoom = std::min(area.x / static_cast<float>(width), area.y / static_cast<float>(height));
     view.centreX = view.centreY = 0.5;
+  } else {
+    canvas = whole;
+    area = room;
   }
   const ImVec2 size{std::max(1.0f, static_cast<float>(width) * view.zoom),  // however thin, it is seen
                     std::max(1.0f, static_cast<float>(height) * view.zoom)};
@@ -298,15 +305,18 @@ void drawFlatScale(float left, float right, float top, const ColourScale& scale,
   if (!unit.empty()) list.AddText({at.x - head, at.y}, IM_COL32_WHITE, unit.c_str());
 }
 
-/// The levels of what is seen, in the lower right corner: heights are logarithms of the counts.
+/// The height that a histogram takes below the picture.
+float histogramHeight(float room) { return std::min(6 * ImGui::GetTextLineHeight(), room * 0.3f); }
+
+/// The levels of what is seen: heights are logarithms of the counts, and the ends stand below them.
 void drawHistogram(const Studio& studio, ImVec2 low, ImVec2 high) {
   const Histogram& histogram = studio.picture.histogram;
-  const ImVec2 size{std::min(characters(34), (high.x - low.x) * 0.6f),
-                    std::min(7 * ImGui::GetTextLineHeight(), (high.y - low.y) * 0.4f)};
+  const float text = ImGui::GetTextLineHeight();
+  const ImVec2 size{std::min(characters(60), high.x - low.x - 16), high.y - low.y - text};
   if (size.x < 40 || size.y < 20 || histogram.most == 0) return;
-  const ImVec2 corner{high.x - size.x - 8, high.y - size.y - 8};
+  const ImVec2 corner{std::round((low.x + high.x - size.x) / 2), low.y};
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(corner, {corner.x + size.x, corner.y + size.y}, IM_COL32(0, 0, 0, 190), 4);
+  list.AddRectFilled(corner, {corner.x + size.x, high.y}, IM_COL32(0, 0, 0, 190), 4);
   constexpr ImU32 kColours[] = {IM_COL32(255, 90, 90, 255), IM_COL32(90, 220, 90, 255),
                                 IM_COL32(110, 150, 255, 255)};
   const auto most = static_cast<float>(math::log1p(histogram.most));
@@ -324,8 +334,8 @@ void drawHistogram(const Studio& studio, ImVec2 low, ImVec2 high) {
   char end[16];
   std::snprintf(end, sizeof end, "%.3g", studio.picture.histogramEnd);
   constexpr ImU32 kQuiet = IM_COL32(255, 255, 255, 160);
-  list.AddText({corner.x + 4, corner.y + 2}, kQuiet, "0");
-  list.AddText({corner.x + size.x - 4 - ImGui::CalcTextSize(end).x, corner.y + 2}, kQuiet, end);
+  list.AddText({corner.x + 4, high.y - text}, kQuiet, "0");
+  list.AddText({corner.x + size.x - 4 - ImGui::CalcTextSize(end).x, high.y - text}, kQuiet, end);
 }
 
 void zoomAndPan(PictureView& view, const FrameArea& frame) {
@@ -399,17 +409,21 @@ bool drawCanvas(Studio& studio, ImVec2 whole, ImVec2 room, int& x, int& y) {
   const bool two = mode == View::sideBySide;
   const bool heat = other.texture == &view.planeTexture && view.planeMade.scale.white > 0;
   const bool scaled = heat || mode == View::falseColour;
+  const bool counted = view.histogramShown && comparesPictures(studio) && !studio.stage && !other.texture &&
+                       hasHistogram(mode);
+  if (counted) area.y = std::max(1.0f, area.y - histogramHeight(room.y));
   ImVec2 part{two ? std::max(1.0f, (area.x - kGap) / 2) : area.x, area.y};
   ScalePlace scalePlace = ScalePlace::beside;
   if (scaled && view.fit) {  // a picture that is enlarged has no place of its own for it
-    const FrameArea fitted = frameOf(view, canvas, part, width, height);
+    const FrameArea fitted = frameOf(view, whole, room, canvas, part, width, height);
     scalePlace =
         placeScale({area.x, area.y}, {fitted.size.x, fitted.size.y}, uprightScale(), flatScale(area.x));
     if (scalePlace == ScalePlace::over) part.x = std::max(area.x / 2, area.x - uprightScale());
   } else if (scaled) {
     part.x = area.x = std::max(area.x / 2, area.x - uprightScale());
   }
-  const FrameArea frame = frameOf(view, canvas, part, width, height);
+  const ImVec2 half{two ? std::max(1.0f, (room.x - kGap) / 2) : room.x, room.y};
+  const FrameArea frame = frameOf(view, whole, half, canvas, part, width, height);
   const FrameArea second{{frame.low.x + part.x + kGap, frame.low.y}, frame.size};
   ImDrawList& list = *ImGui::GetWindowDrawList();
 
@@ -490,9 +504,7 @@ bool drawCanvas(Studio& studio, ImVec2 whole, ImVec2 room, int& x, int& y) {
     else
       drawScale({canvas.x, clear}, {whole.x + room.x, end.y}, scale, colours);
   }
-  if (view.histogramShown && comparesPictures(studio) && !studio.stage && !other.texture &&
-      hasHistogram(mode))
-    drawHistogram(studio, canvas, end);
+  if (counted) drawHistogram(studio, {canvas.x, end.y}, {whole.x + room.x, whole.y + room.y});
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const FrameArea& under = two && mouse.x > canvas.x + part.x ? second : frame;

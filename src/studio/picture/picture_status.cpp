@@ -97,9 +97,21 @@ void drawStatus(Studio& studio, bool hovered, int x, int y) {
       Picture there(1, 1);
       there.at(0, 0) = view.reference.at(x, y);
       const Color shown = linear ? developed(there, view.development).at(0, 0) : there.at(0, 0);
-      ImGui::TextDisabled("reference  %s%s", pixelText(there.at(0, 0), shown, rounding).c_str(),
-                          linear ? "" : "   both as shown, 0 to 1");
+      const bool differs = view.view == View::difference || view.view == View::falseColour;
+      std::string apart;
+      if (differs && sameSize(view.difference, view.shown))
+        apart = "   difference  " + channels(view.difference.at(x, y));
+      ImGui::TextDisabled("reference  %s%s%s", pixelText(there.at(0, 0), shown, rounding).c_str(),
+                          linear ? "" : "   both as shown, 0 to 1", apart.c_str());
     }
+  } else if (const double share = workspace.savingShare(); share > 0) {
+    char text[40];
+    std::snprintf(text, sizeof text, "writing, %.0f %%", std::floor(100 * share));
+    ImGui::ProgressBar(static_cast<float>(share), {characters(24), ImGui::GetFrameHeight()}, text);
+    ImGui::SameLine();
+    if (ImGui::Button("Give up")) workspace.stopSaving();
+    landmark("give up writing");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("write no film");
   } else if (workspace.saving() || workspace.reading()) {
     ImGui::TextDisabled(workspace.saving() ? "writing the file" : "reading the file");
   } else if (state.working()) {

@@ -30,7 +30,8 @@ struct PictureView {
   double centreX = 0.5, centreY = 0.5;       ///< what is in the middle, in shares of the picture
   float exposure = 0;                        ///< stops
   float swipe = 0.5f;                        ///< share that shows the picture
-  float magnify = 8;                         ///< magnify of the difference
+  float magnify = 1;                         ///< magnify of the difference
+  bool magnifyChosen = false;                ///< by a person; else it follows from the difference
   PixelChoice pixel;                         ///< that was clicked
   ShownChannel channel = ShownChannel::all;  ///< what of the pictures is seen
   bool histogramShown = false;
@@ -57,6 +58,7 @@ struct PictureView {
   Picture difference{};     ///< difference of the two, not magnified
   View differenceView = View::picture;
   float differenceMagnify = 0;
+  bool differenceChosen = false;
 
   Texture planeTexture;  ///< where another plane than the picture is seen
   PlaneView planeMade;   ///< what is in it, and what its colours mean

@@ -167,7 +167,7 @@ void playRays(Studio& studio) {
 
 void saveRays(Studio& studio, const std::string& file) {
   const TracedPixel& pixel = *shownPixel(studio);
-  studio.workspace.saveBy(file, [file, session = pixel.session, tree = pixel.tree()] {
+  studio.workspace.saveBy(file, [file, session = pixel.session, tree = pixel.tree()](const Advance&) {
     const Drawing drawing =
         drawRays(session->sceneOf(tree), session->settings(), session->worldOf(tree), tree);
     writeDrawing(file, drawing);
@@ -180,7 +180,9 @@ void saveStory(Studio& studio, const std::string& file) {
   const Document& document = studio.workspace.document;
   const Camera camera = studio.rays.fromCamera ? cameraFor(document.scene(), document.settings())
                                                : cameraOf(studio.rays.orbit.frame(aspect), aspect);
-  studio.workspace.saveBy(file, [file, pixel, camera] { writeStory(file, RayStory(pixel, camera)); });
+  studio.workspace.saveBy(file, [file, pixel, camera](const Advance& advance) {
+    writeStory(file, RayStory(pixel, camera), advance);
+  });
 }
 
 void stepRays(Studio& studio, int rays) {
@@ -284,7 +286,7 @@ void drawNote(const Studio& studio, const TracedPixel& pixel) {
 
 /// The head and the rows that a low window shows of a tree with so many rays.
 float heightOfTree(std::size_t rays) {
-  const auto rows = static_cast<float>(std::clamp<std::size_t>(rays, 3, 6));
+  const auto rows = static_cast<float>(std::min<std::size_t>(rays, 3));
   return (rows + 1) * (ImGui::GetTextLineHeight() + 2 * ImGui::GetStyle().CellPadding.y) + 2;
 }
 
@@ -321,8 +323,8 @@ void drawRays(Studio& studio) {
     ImGui::TextColored(studio.palette().error, "%s", inspector.traced()->problem.c_str());
     ImGui::PopTextWrapPos();
   } else {
+    drawHead(studio, *pixel);  // first, so that the sentence's length does not move it
     drawWhy(studio, *pixel);
-    drawHead(studio, *pixel);
     if (!view.pyramid.open) drawNote(studio, *pixel);  // the pyramid is of the whole picture
     view.pyramid.open = view.differs = false;
     if (ImGui::BeginTabBar("about rays")) {

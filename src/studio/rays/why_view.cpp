@@ -69,7 +69,8 @@ void drawSum(Studio& studio, const TracedPixel& pixel) {
     const bool over = ImGui::IsItemHovered();
     ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
     ImGui::TextUnformatted((name + sign).c_str());
-    if (over || ImGui::IsItemHovered()) ImGui::SetTooltip("%s: %s", name.c_str(), channels(color).c_str());
+    if (over || ImGui::IsItemHovered())
+      ImGui::SetTooltip("%s: %s", name == "=" ? "the sum" : name.c_str(), channels(color).c_str());
     return pressed || ImGui::IsItemClicked();
   };
   const float gaps = side + 2 * ImGui::GetStyle().ItemInnerSpacing.x + characters(3);

@@ -12,6 +12,7 @@
 #include "app/editing/scene_changes.h"
 #include "app/editing/texture_edits.h"
 #include "app/view/space/scene_model.h"
+#include "formats/ray/write/transform.h"
 #include "geometry/mesh/tessellate.h"
 #include "render/world/hit.h"
 #include "scene/picture_size.h"
@@ -35,8 +36,6 @@ Material newMaterial() {
   return {"", grey, {}};
 }
 
-constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
-
 /// The surface in the middle of the picture.
 struct Middle {
   CameraFrame camera;
@@ -55,19 +54,7 @@ Middle middleOf(const Session& session) {
   return middle;
 }
 
-/// The box of an object in the world; an endless one is everywhere.
-Box3 boxOf(const Object& object) {
-  const Box3 own = drawnBounds(object.shape, kEverywhere);
-  return own.empty() || own.unbounded() ? own : object.worldFromObject * own;
-}
-
-/// Boxes of the objects that have an end, those too that no render has seen yet.
-std::vector<Box3> boxesOf(const Scene& scene) {
-  std::vector<Box3> boxes;
-  for (const Object& object : scene.objects)
-    if (const Box3 box = boxOf(object); !box.empty() && !box.unbounded()) boxes.push_back(box);
-  return boxes;
-}
+constexpr Box3 kEverywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
 
 /// On what the camera looks at, and in no other object.
 Affine inSight(const Studio& studio, const Shape& shape) {
@@ -184,7 +171,8 @@ void add(Studio& studio, const Addition& addition) {
       scene.materials.push_back(newMaterial());  // its own: others keep their colours
       const auto own = static_cast<std::uint32_t>(scene.materials.size() - 1);
       Shape shape(rowCalled<ShapeType>(name));
-      const Affine placed = inSight(studio, shape);
+      constexpr int kDigits = 5;
+      const Affine placed = rayfile::inShortNumbers(inSight(studio, shape), kDigits);
       scene.objects.push_back({"", std::move(shape), placed, own, {}});
       index = scene.objects.size() - 1;
       break;

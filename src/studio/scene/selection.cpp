@@ -2,7 +2,9 @@
 
 #include <imgui.h>
 
+#include "app/editing/placing.h"
 #include "app/editing/scene_changes.h"
+#include "scene/picture_size.h"
 #include "studio/scene/object_editor.h"
 #include "studio/widgets/landmarks.h"
 
@@ -100,6 +102,12 @@ void duplicateSelected(Studio& studio) {
   Scene scene = document.scene();
   Object copy = scene.objects[studio.selectedIndex];
   copy.place = {};
+  const Box3 box = boxOf(copy);
+  if (!box.empty() && !box.unbounded()) {  // beside the others, so that it is seen
+    const CameraFrame camera = frame(cameraFor(scene, document.settings()), document.settings().cameraAxes);
+    const Vec3 by = freedFrom(boxesOf(scene), box, camera, scene.camera.updir);
+    copy.worldFromObject = withoutNoise(Affine::translation(by) * copy.worldFromObject);
+  }
   scene.objects.push_back(std::move(copy));
   studio.select(Selected::object, scene.objects.size() - 1);
   studio.workspace.edit("duplicate", std::move(scene));

@@ -100,7 +100,8 @@ bool dragGizmo(Studio& studio, const SpaceFrame& frame) {
   if (!gizmo.held) return false;
   const auto by = draggedBy(*gizmo.held, gizmo.handle, frame.view, gizmo.from, cursorIn(frame));
   const auto thing = by ? selectedThing(studio) : std::nullopt;
-  if (thing && keepsObject(*by * gizmo.placed)) place(studio, *by * gizmo.placed);
+  const Affine placed = by ? withoutNoise(*by * gizmo.placed) : gizmo.placed;
+  if (thing && keepsObject(placed)) place(studio, placed);
   return true;
 }
 

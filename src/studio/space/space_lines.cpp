@@ -26,8 +26,11 @@ class Pen {
   Lines lines;
 
   void line(const Vec3& a, const Vec3& b, const Color& c, float opacity, float width, float dash = 0) {
-    lines.push_back({model_.local(a),
-                     model_.local(b),
+    local(model_.local(a), model_.local(b), c, opacity, width, dash);
+  }
+  void local(const Point3& a, const Point3& b, const Color& c, float opacity, float width, float dash = 0) {
+    lines.push_back({a,
+                     b,
                      {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), opacity},
                      width * scale_,
                      dash * scale_});
@@ -222,6 +225,10 @@ std::vector<DrawLine> spaceLines(const Studio& studio, const Frustum& frustum, c
     const bool selected = studio.selected == Studio::Selected::object && studio.selectedIndex == part.object;
     if (view.boundsShown || selected)
       pen.box(part.box, selected ? accent : muted, selected ? 1 : 0.7f, selected ? 2 : 1);
+  }
+  if (view.surfaces == Surfaces::shaded) {
+    const Color edge = studio.theme.light ? Color(0.2, 0.3, 0.35) : Color(0.8, 0.9, 1);
+    for (const auto& [from, to] : view.model.creases) pen.local(from, to, edge, 0.5f, 1);
   }
   if (view.axesShown)
     for (int axis = 0; axis < 3; ++axis) {

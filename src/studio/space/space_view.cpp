@@ -26,6 +26,7 @@ namespace {
 
 constexpr float kNear = 6;            // pixels from a ray that count as on it
 constexpr float kHidden = 0.6f;       // opacity of what lies behind surfaces
+constexpr double kMostLegend = 0.3;   // share of the view that the legend may cover
 constexpr float kNamedLegend = 0.6f;  // largest share of a view that names in its legend may take
 
 /// Asks for the scene's triangles when they have changed, and takes those that have come. Those of another
@@ -94,22 +95,27 @@ void frameRays(Studio& studio) {
   const bool shown = pixel && pixel->x == view.clickedX && pixel->y == view.clickedY;
   if (!view.frameDue || !shown || ImGui::IsMouseDown(0)) return;
   view.frameDue = false;
-  constexpr Real kFar = 6, kLeast = 1.2;  // times the size of what the camera sees
+  constexpr Real kFar = 6, kLeast = 0.8;  // times the size of what the camera sees
   Box3 box = boundsOf(pixel->segments, kFar * view.size);
   if (view.fromCamera || box.empty()) return;
+  const auto session = studio.workspace.render.session();
+  std::vector<Vec3> hits;
+  for (const RayNode& node : pixel->tree().nodes)
+    if (node.hit) hits.push_back(node.hit->surface.point);
+  const std::vector<std::uint32_t> walls = view.roomOpened ? view.walls : std::vector<std::uint32_t>{};
+  const auto unhidden = [&] {
+    return inSight(view.orbit, hits, session->world(), walls, session->scene().camera.position);
+  };
+  // A view that shows them well stays: rays of several pixels are compared in it.
+  if (session && showsWell(view.orbit.frame(view.aspect), box, hits) &&
+      unhidden().frame(1).eye == view.orbit.frame(1).eye)
+    return;
   const Vec3 least = Vec3(1, 1, 1) * (kLeast * view.size);  // rays are seen with their surroundings
   const Vec3 room{std::max(0.0, least.x - box.size().x / 2), std::max(0.0, least.y - box.size().y / 2),
                   std::max(0.0, least.z - box.size().z / 2)};
   box = {box.low - room, box.high + room};
   view.orbit.lookAt(box);
-  const auto session = studio.workspace.render.session();
-  if (!session) return;
-  std::vector<Vec3> hits;
-  for (const RayNode& node : pixel->tree().nodes)
-    if (node.hit) hits.push_back(node.hit->surface.point);
-  view.orbit =
-      inSight(view.orbit, hits, session->world(), view.roomOpened ? view.walls : std::vector<std::uint32_t>{},
-              session->scene().camera.position);
+  if (session) view.orbit = unhidden();
 }
 
 /// Parts of one look that follow each other are drawn as one.
@@ -436,6 +442,7 @@ void drawSwitches(Studio& studio) {
     ImGui::SameLine();
     resetButton(view);
   }
+  besidePanel();  // so that what the switches do is seen
   if (!ImGui::BeginPopup("show")) return;
   if (!chooses) chooseSurfaces(view, surfaces);
   if (!resets) resetButton(view);
@@ -483,14 +490,18 @@ void drawLegend(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size) 
   const TracedPixel* pixel = shownPixel(studio);
   if (!pixel) return;
   std::array<int, kRayLooks.size()> count{};
-  for (const RaySegment& segment : pixel->segments) ++count[static_cast<std::size_t>(segment.looks)];
+  std::array<int, kRayLooks.size()> there{};  // those that are in the view by now
+  for (const RaySegment& segment : pixel->segments) {
+    ++count[static_cast<std::size_t>(segment.looks)];
+    there[static_cast<std::size_t>(segment.looks)] += view.inStep(segment.node);
+  }
   const auto classes = std::count_if(count.begin(), count.end(), [](int n) { return n > 0; });
   const float line = ImGui::GetTextLineHeight() + ImGui::GetStyle().ItemSpacing.y * 0.5f;
   const float pad = ImGui::GetStyle().FramePadding.x;
   const float fit = std::floor((size.y - 2 * pad) / line);
   if (classes == 0 || fit < 1) return;
   const auto textOf = [&](std::size_t i, bool withNames) {
-    return (withNames ? std::string(kRayLooks[i].name) + "  " : "") + std::to_string(count[i]);
+    return (withNames ? std::string(kRayLooks[i].name) + "  " : "") + std::to_string(there[i]);
   };
   const auto columns = std::ceil(static_cast<float>(classes) / fit);
   const auto rows = std::ceil(static_cast<float>(classes) / columns);
@@ -505,6 +516,7 @@ void drawLegend(Studio& studio, const Matrix4& matrix, ImVec2 low, ImVec2 size) 
   const float widest = widestOf(named);
   const float column = widest + side + 3 * pad;
   const Vec2 all{size.x, size.y}, wide{columns * column + 2 * pad, rows * line + 2 * pad};
+  if (wide.x * wide.y > kMostLegend * all.x * all.y) return;
   if (!ImGui::IsMouseDown(0) && !ImGui::IsMouseDown(1) && !ImGui::IsMouseDown(2))
     view.legendCorner = quietCorner(all, wide, shownLines(studio, matrix, size), view.legendCorner);
   const Vec2 corner = placeIn(view.legendCorner, all, wide);

@@ -337,9 +337,12 @@ void endFields() {
 
 std::string shortened(std::string_view text, float width) {
   const auto fits = [&](const std::string& all) { return ImGui::CalcTextSize(all.c_str()).x <= width; };
+  constexpr std::size_t kMostTail = 4;
+  const std::size_t letters = text.find_last_not_of("0123456789)") + 1;  // which tells it from others
+  const std::size_t tail = text.size() - letters <= kMostTail ? text.size() - letters : 0;
   std::string shown(text);
-  for (std::size_t kept = text.size(); !fits(shown) && kept > 1;)
-    shown = std::string(text.substr(0, --kept)) + "..";
+  for (std::size_t kept = text.size() - tail; !fits(shown) && kept > 1;)
+    shown = std::string(text.substr(0, --kept)) + ".." + std::string(text.substr(text.size() - tail));
   return shown;
 }
 

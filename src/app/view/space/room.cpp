@@ -86,6 +86,23 @@ std::optional<Found> closestShown(const World& world, const Ray& ray, const std:
   return nearest;
 }
 
+bool showsWell(const CameraFrame& view, const Box3& box, const std::vector<Vec3>& points) {
+  constexpr Real kRim = 0.04, kLarge = 0.3;  // shares of the view
+  for (const Vec3& point : points) {
+    const auto at = view.placeOf(point);
+    if (!at || at->x < kRim || at->y < kRim || at->x > 1 - kRim || at->y > 1 - kRim) return false;
+  }
+  Vec2 low{kInfinity, kInfinity}, high{-kInfinity, -kInfinity};
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto at = view.placeOf({corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                                  corner & 4 ? box.high.z : box.low.z});
+    if (!at) return false;
+    low = {std::min(low.x, at->x), std::min(low.y, at->y)};
+    high = {std::max(high.x, at->x), std::max(high.y, at->y)};
+  }
+  return std::max(high.x - low.x, high.y - low.y) >= kLarge;
+}
+
 OrbitCamera inSight(const OrbitCamera& orbit, const std::vector<Vec3>& points, const World& world,
                     const std::vector<std::uint32_t>& walls, const Vec3& inside) {
   constexpr std::size_t kMostPoints = 40;

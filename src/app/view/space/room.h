@@ -31,6 +31,9 @@ std::vector<Found> shownCrossings(const World& world, const Ray& ray, const std:
 std::optional<Found> closestShown(const World& world, const Ray& ray, const std::vector<std::uint32_t>& walls,
                                   const Vec3& inside);
 
+/// The view has the points in it, and the box, in which their rays are, is large in it.
+bool showsWell(const CameraFrame& view, const Box3& box, const std::vector<Vec3>& points);
+
 /// Turned about its target, no farther than needed, so that surfaces hide as few of the points as possible.
 OrbitCamera inSight(const OrbitCamera& orbit, const std::vector<Vec3>& points, const World& world,
                     const std::vector<std::uint32_t>& walls, const Vec3& inside);

@@ -220,6 +220,35 @@ SceneModeler::Made SceneModeler::made(const Shape& shape, const Box3& within, st
   return made;
 }
 
+namespace {
+
+/// The edges of a part's triangles where its surface bends sharply, or ends.
+void addCreases(const ScenePart& part, SceneModel& model) {
+  constexpr std::size_t kMostCorners = 30000, kMost = 4000;  // in the part; in the model
+  constexpr double kSharp = 0.77;                            // cosine of 40 degrees
+  if (part.opacity >= 1 || part.count > kMostCorners) return;
+  using Point = std::array<float, 3>;
+  const auto at = [&](std::size_t corner) {
+    const float* p = &model.corners[6 * corner];
+    return Point{p[0], p[1], p[2]};
+  };
+  const auto vec = [](const Point& p) { return Vec3{p[0], p[1], p[2]}; };
+  std::map<std::pair<Point, Point>, std::vector<Vec3>> normals;  // normals of the triangles at an edge
+  for (std::size_t first = part.first; first < part.first + part.count; first += 3) {
+    const std::array<Point, 3> corner{at(first), at(first + 1), at(first + 2)};
+    const Vec3 across = cross(vec(corner[1]) - vec(corner[0]), vec(corner[2]) - vec(corner[0]));
+    if (!(length(across) > 0)) continue;
+    for (std::size_t i = 0; i < 3; ++i)
+      normals[std::minmax(corner[i], corner[(i + 1) % 3])].push_back(normalize(across));
+  }
+  for (const auto& [ends, there] : normals) {
+    const bool smooth = there.size() == 2 && std::abs(dot(there[0], there[1])) > kSharp;
+    if (!smooth && model.creases.size() < kMost) model.creases.push_back({ends.first, ends.second});
+  }
+}
+
+}  // namespace
+
 SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled, double fineness) {
   SceneModel model;
   if (std::exchange(fineness_, fineness) != fineness) made_.clear();
@@ -274,6 +303,7 @@ SceneModel SceneModeler::model(const Scene& given, const Cancelled& cancelled, d
         }
     }
   }
+  for (const ScenePart& part : model.parts) addCreases(part, model);
   model.shared = sharedCorners(model.corners);
   if (!(cancelled && cancelled())) addFew(model);
   made_ = std::move(kept);

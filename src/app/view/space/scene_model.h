@@ -45,6 +45,8 @@ struct SceneModel {
   SharedCorners shared;
   static constexpr std::size_t kFewTriangles = 16000;
   std::vector<ScenePart> parts;
+  /// Sharp edges of what transmits light, both ends of each: else flat glass would hardly be seen.
+  std::vector<std::array<std::array<float, 3>, 2>> creases;
   std::vector<Message> warnings;  ///< warnings of shapes that are drawn coarser than others, or not at all
 
   std::array<float, 3> local(const Vec3& world) const {

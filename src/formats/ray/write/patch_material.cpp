@@ -250,6 +250,16 @@ MaterialEdits::Fields MaterialEdits::missing(const Item* block, const Material& 
 
 std::string MaterialEdits::blockText(const Material& from, const Material& wanted, bool whole) const {
   Fields fields = missing(nullptr, from, wanted, whole);
+  if (std::optional<Material> own = whole ? std::nullopt : libraryMaterial(wanted.name)) {
+    // One of the library, perhaps changed a little, says so.
+    constexpr std::size_t kLittle = 3;  // fields, its name among them
+    own->sides = edits_.syntax().isOfKind() ? from.sides : own->sides;
+    own->name.clear();
+    if (Fields changed = missing(nullptr, *own, wanted, false); changed.size() <= kLittle) {
+      changed.insert(changed.begin() + 1, std::string(kLibrary) + " = " + written(wanted.name, 0));
+      fields = std::move(changed);
+    }
+  }
   const auto* phong = wanted.model.as<Phong>();
   if (fields.empty() && phong && edits_.syntax().isOfKind())  // an empty block would be grey
     fields.push_back("diffuse = " + valueText(wanted, "diffuse", phong->diffuse));

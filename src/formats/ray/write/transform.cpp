@@ -359,6 +359,39 @@ bool nearlyEqual(const Affine& a, const Affine& b) {
          std::max(least, kRounding * std::max(largest(a.offset), largest(b.offset)));
 }
 
+namespace {
+
+/// Factors along the object's axes, and the turn after them. Nothing for what is skewed or flat.
+struct ScaledTurn {
+  Vec3 scale;
+  std::vector<Real> turn;
+};
+std::optional<ScaledTurn> scaledTurnOf(const Affine& m) {
+  Vec3 s{length(column(m, 0)), length(column(m, 1)), length(column(m, 2))};
+  if (!(std::min({s.x, s.y, s.z}) > 0) || !std::isfinite(s.x + s.y + s.z)) return {};
+  if (determinant(m) < 0) s = -s;
+  const Affine bare = m * Affine::scaling({1 / s.x, 1 / s.y, 1 / s.z});
+  if (!isTurn(bare)) return {};
+  return ScaledTurn{s, axisAndAngle(bare)};
+}
+
+}  // namespace
+
+Affine inShortNumbers(const Affine& m, int digits) {
+  const auto parts = scaledTurnOf(m);
+  if (!parts || !isFinite(m.offset)) return m;
+  const Real least = math::pow(0.1, digits) * sizeOf(m);  // less is nothing
+  const auto near = [&](Real x) { return std::abs(x) < least ? 0 : rounded(x, digits) + 0.0; };
+  const auto all = [&](const Vec3& v) { return Vec3{near(v.x), near(v.y), near(v.z)}; };
+  std::vector<Real> turn = parts->turn;
+  const Real degrees = rounded(turn[3] * 180 / kPi, digits);
+  for (std::size_t i = 0; i < 3; ++i)
+    turn[i] = std::abs(turn[i]) < math::pow(0.1, digits) ? 0 : rounded(turn[i], digits) + 0.0;
+  const Affine turned =
+      degrees == 0 ? Affine{} : affineOf({Form::rotate, {turn[0], turn[1], turn[2], degrees * kPi / 180}});
+  return Affine::translation(all(m.offset)) * turned * Affine::scaling(all(parts->scale));
+}
+
 Steps stepsOf(const Affine& m) {
   if (m == Affine{}) return {};
   Steps move;
@@ -377,12 +410,9 @@ Steps stepsOf(const Affine& m) {
   };
   if (const auto found = good({scaling({m.row[0].x, m.row[1].y, m.row[2].z})})) return *found;
 
-  Vec3 s{length(column(m, 0)), length(column(m, 1)), length(column(m, 2))};
-  const bool sound = std::min({s.x, s.y, s.z}) > 0 && std::isfinite(s.x + s.y + s.z);
-  if (sound && determinant(m) < 0) s = -s;
-  const Affine bare = sound ? m * Affine::scaling({1 / s.x, 1 / s.y, 1 / s.z}) : m;
-  if (!sound || !isTurn(bare)) return {matrixStep(m)};
-  const std::vector<Real> turn = axisAndAngle(bare);
+  const auto parts = scaledTurnOf(m);
+  if (!parts) return {matrixStep(m)};
+  const auto& [s, turn] = *parts;
   // The axis whose first entry is above 0 comes first.
   const Real first = std::copysign(1.0, turn[0] != 0 ? turn[0] : turn[1] != 0 ? turn[1] : turn[2]);
   for (int digits = 6; digits <= 17; ++digits) {

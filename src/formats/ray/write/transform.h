@@ -35,6 +35,10 @@ std::string head(const TransformStep& step, int digits);
 /// None for the identity.
 std::vector<TransformStep> stepsOf(const Affine& m);
 
+/// The transform that is nearly `m` and that a translation, a rotation and a scaling say, with so many digits
+/// of each number that count; `m` itself where it is skewed or flat.
+Affine inShortNumbers(const Affine& m, int digits);
+
 /// Equal except for the rounding of a few operations.
 bool nearlyEqual(const Affine& a, const Affine& b);
 
