@@ -18,7 +18,7 @@
 
 namespace trace::cli {
 
-/// The sub-commands, in the order of their table (commands.h).
+/// The sub-commands, in the order of their table (commands.h); help is the last.
 enum class Verb {
   render,
   gui,

@@ -31,12 +31,12 @@ constexpr Verbs kRender{Verb::render}, kExplain{Verb::explain}, kDiff{Verb::diff
              Verb::lint,   Verb::diff,       Verb::grade, Verb::convert, Verb::texture,
              Verb::expand, Verb::stereogram, Verb::split, Verb::farm},
     kFrames{Verb::render, Verb::split, Verb::farm}, kSplitting{Verb::split, Verb::farm},
-    kAnswering{Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::diff, Verb::grade},
-    kEverywhere{Verb::render,    Verb::gui,      Verb::info,   Verb::bench,    Verb::explain,
-                Verb::lint,      Verb::diff,     Verb::grade,  Verb::convert,  Verb::texture,
-                Verb::materials, Verb::newScene, Verb::format, Verb::expand,   Verb::stereogram,
-                Verb::split,     Verb::farm,     Verb::merge,  Verb::features, Verb::selftest,
-                Verb::help};
+    kAnswering{Verb::info, Verb::bench, Verb::explain, Verb::lint, Verb::diff, Verb::grade};
+constexpr Verbs kEverywhere = [] {
+  Verbs all;
+  for (int verb = 0; verb <= static_cast<int>(Verb::help); ++verb) all.add(static_cast<Verb>(verb));
+  return all;
+}();
 constexpr Verbs kTexture{Verb::texture}, kFeatures{Verb::features};
 
 /// The index of the value in the names. Throws Error(Fault::usage).

@@ -24,6 +24,7 @@ inline constexpr std::size_t kMostShapeTypes = 64;
 /// A row of the table of shapes.
 struct ShapeType : ListedRow<AnyField> {
   bool ofObjects;  ///< it is made of objects, which are its field "objects"
+  bool alongZ;     ///< its axis is z, as that of a cone: a new one is turned upright
   TracedShape (*prepare)(const void* shape, const MeshTrees& made);
   ShapeFacts (*check)(const void* shape);
 };

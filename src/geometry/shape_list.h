@@ -14,11 +14,10 @@
 //   surface(ray, c)     the point, put back on the surface, with error bounds, normal and uv
 //
 // A shape may add
+//   kAlongZ             its axis is z, as that of a cone: a new one is turned upright
 //   convex()            a ray that leaves it on the side of its normal does not hit it again
-//
 //   strands()           rays meet its parts only where they enter these: light through a part leaves it
-//   without
-//                       another hit, and the parts shade one another
+//                       without another hit, and the parts shade one another
 //
 // A shape of several materials adds
 //   material(part, own)        the MaterialMix of a crossing; `own` is that of the whole

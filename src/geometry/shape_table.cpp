@@ -38,6 +38,14 @@ ShapeFacts factsOf(const S& shape) {
   }
 }
 
+template <class S>
+constexpr bool alongZOf() {
+  if constexpr (requires { S::kAlongZ; })
+    return S::kAlongZ;
+  else
+    return false;
+}
+
 template <class S, std::size_t kIndex>
 TracedShape prepared(const void* at, const MeshTrees& made) {
   TracedShape::Held held{AnyForm(std::in_place_index<kIndex>, formFor(*static_cast<const S*>(at), made)), {}};
@@ -50,7 +58,7 @@ template <class S, std::size_t kIndex>
 ShapeType rowFor() {
   static_assert(kTraceable<S>, "the shape lacks one of the functions that shape_list.h asks for");
   constexpr bool kOfObjects = requires(S s) { s.objects.list(); };
-  return {ShapeType::of<S>(kIndex), kOfObjects, prepared<S, kIndex>,
+  return {ShapeType::of<S>(kIndex), kOfObjects, alongZOf<S>(), prepared<S, kIndex>,
           [](const void* at) { return factsOf(*static_cast<const S*>(at)); }};
 }
 

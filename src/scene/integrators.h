@@ -1,5 +1,5 @@
 // THE table of integrators: their names, and their traits, by which the rest of the program decides what an
-// integrator needs. render/integrator.cpp makes them.
+// integrator needs. render/integrators/make_integrator.cpp makes them.
 #pragma once
 
 #include <span>

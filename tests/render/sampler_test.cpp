@@ -6,6 +6,11 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <span>
+#include <string_view>
+
+#include "image/film/pixel_filter.h"
+#include "scene/options.h"
 
 namespace trace::sampler_test {
 namespace {
@@ -25,6 +30,22 @@ TEST(Sampler, GridLiesAtTheCellsOfThePixel) {
   Settings border{.spp = 4};
   border.pixelPosition = PixelPosition::border;
   EXPECT_EQ(Sampler(SampleRules(border, {10, 5}), 9, 0, 3).film().place, (Vec2{1, 1}));
+}
+
+/// The names of the choices are in scene/options.cpp, the rows elsewhere.
+template <class Row>
+void expectRowsOf(std::string_view option, std::span<const Row> rows) {
+  const auto choices = findOption(option).choices;
+  ASSERT_EQ(rows.size(), choices.size()) << option;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].name, choices[i]) << option;
+    EXPECT_EQ(static_cast<std::size_t>(rows[i].kind), i) << option;
+  }
+}
+
+TEST(Sampler, EveryGeneratorAndFilterToChooseHasItsRow) {
+  expectRowsOf("sampling", generators());
+  expectRowsOf("filter", filters());
 }
 
 TEST(Sampler, TheTableIsInTheOrderOfItsKinds) {

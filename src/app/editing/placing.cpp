@@ -149,10 +149,8 @@ std::vector<Box3> boxesOf(const Scene& scene) {
   return boxes;
 }
 
-Affine upright(std::string_view shape, const Vec3& updir) {
-  constexpr std::string_view kAlongZ[] = {"cylinder",   "cone",        "conic",      "elliptic_cone",
-                                          "paraboloid", "hyperboloid", "two_sheets", "lathe"};
-  if (std::find(std::begin(kAlongZ), std::end(kAlongZ), shape) == std::end(kAlongZ)) return {};
+Affine upright(const ShapeType& shape, const Vec3& updir) {
+  if (!shape.alongZ) return {};
   const Vec3 axis{0, 0, 1}, up = upOf(updir), across = cross(axis, up);
   if (length(across) > 0) return Affine::rotation(across, kPi / 2);
   return dot(axis, up) > 0 ? Affine{} : Affine::rotation({1, 0, 0}, kPi);

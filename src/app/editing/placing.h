@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/ray.h"
+#include "geometry/shape.h"
 #include "math/box.h"
 #include "math/transform.h"
 #include "scene/scene.h"
@@ -38,7 +39,7 @@ std::vector<Box3> boxesOf(const Scene& scene);
 
 /// Turns a shape whose axis is its own z, such as a cone, so that it stands upright for a camera; others
 /// stay.
-Affine upright(std::string_view shape, const Vec3& updir);
+Affine upright(const ShapeType& shape, const Vec3& updir);
 
 /// A surface that the camera sees, and the box of its object.
 struct SeenObject {

@@ -58,13 +58,13 @@ inline std::map<std::uint32_t, int>::const_iterator mostOf(const std::map<std::u
 bool isOfArea(const Message& message);
 bool isOfGlass(const Message& message);
 
-// Meshes (lint_meshes.cpp).
+// Meshes (meshes.cpp).
 void insideOut(const LintScene& s, Findings& findings);
 void turnedFaces(const LintScene& s, Findings& findings);
 void normalsAgainstFaces(const LintScene& s, Findings& findings);
 void zeroArea(const LintScene& s, Findings& findings);
 void coplanarFaces(const LintScene& s, Findings& findings);
-// Materials (lint_materials.cpp).
+// Materials (materials.cpp).
 void unusedMaterial(const LintScene& s, Findings& findings);
 void inheritedGlass(const LintScene& s, Findings& findings);
 void indexBelowOne(const LintScene& s, Findings& findings);
@@ -72,7 +72,7 @@ void depthTooLow(const LintScene& s, Findings& findings);
 void brickJoint(const LintScene& s, Findings& findings);
 void noMaterial(const LintScene& s, Findings& findings);
 
-// Lights (lint_lights.cpp).
+// Lights (lights.cpp).
 void lightInside(const LintScene& s, Findings& findings);
 void lightBehindGlass(const LintScene& s, Findings& findings);
 void lightTooWeak(const LintScene& s, Findings& findings);
@@ -80,23 +80,23 @@ void lightBlocked(const LintScene& s, Findings& findings);
 void lightCut(const LintScene& s, Findings& findings);
 void lightFacesAway(const LintScene& s, Findings& findings);
 void lightLink(const LintScene& s, Findings& findings);
-// Light that is not there (lint_unlit.cpp).
+// Light that is not there (unlit.cpp).
 void unlit(const LintScene& s, Findings& findings);
 void causticsMissing(const LintScene& s, Findings& findings);
 void blackPicture(const LintScene& s, Findings& findings);
-// The camera (lint_camera.cpp).
+// The camera (camera.cpp).
 void cameraInside(const LintScene& s, Findings& findings);
 void cameraLooksAway(const LintScene& s, Findings& findings);
 void blackReflection(const LintScene& s, Findings& findings);
 
-/// Checks lights of which nothing arrives (lint_light_reach.cpp).
+/// Checks lights of which nothing arrives (light_reach.cpp).
 void lightReachesNothing(const LintScene& s, Findings& findings);
-/// Checks portals (lint_portals.cpp).
+/// Checks portals (portals.cpp).
 void portalUseless(const LintScene& s, Findings& findings);
-/// Checks glass inside glass (lint_glass.cpp).
+/// Checks glass inside glass (glass.cpp).
 void glassInGlass(const LintScene& s, Findings& findings);
 
-// Media, and bodies in which light spreads (lint_media.cpp).
+// Media, and bodies in which light spreads (media.cpp).
 void mediumUnseen(const LintScene& s, Findings& findings);
 void mediumEmpty(const LintScene& s, Findings& findings);
 void subsurfaceOpen(const LintScene& s, Findings& findings);

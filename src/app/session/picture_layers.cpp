@@ -26,7 +26,7 @@ const PictureFormat* pngFormat() {
   return format;
 }
 
-/// The layer and its channels of a pass whose values are numbers.
+/// The layer and its channels of a pass whose values are numbers; the values of the others are colours.
 struct LayerNames {
   Pass pass;
   std::array<std::string_view, 3> channels;  ///< "" for none
@@ -38,9 +38,7 @@ constexpr std::array kLayerNames{
     LayerNames{Pass::uv, {"uv.U", "uv.V", ""}},
     LayerNames{Pass::position, {"P.X", "P.Y", "P.Z"}},
     LayerNames{Pass::samples, {"samples.Y", "", ""}},
-    LayerNames{Pass::albedo, {"albedo.R", "albedo.G", "albedo.B"}},
     LayerNames{Pass::occlusion, {"occlusion.Y", "", ""}},
-    LayerNames{Pass::change, {"change.R", "change.G", "change.B"}},
     LayerNames{Pass::motion, {"forward.u", "forward.v", ""}},
     LayerNames{Pass::variance, {"variance.Y", "", ""}},
 };
@@ -48,6 +46,15 @@ constexpr std::array kLayerNames{
 std::vector<std::string> colorNames(const std::string& layer) {
   const std::string start = layer.empty() ? "" : layer + ".";
   return {start + "R", start + "G", start + "B"};
+}
+
+std::vector<std::string> channelsOf(const PassRow& pass) {
+  std::vector<std::string> names;
+  for (const LayerNames& row : kLayerNames)
+    if (row.pass == pass.pass)
+      for (const std::string_view channel : row.channels)
+        if (!channel.empty()) names.emplace_back(channel);
+  return names.empty() ? colorNames(std::string(pass.name)) : names;
 }
 
 /// A file for the part of the picture that is rendered.
@@ -83,12 +90,7 @@ Picture valuesOf(const PassRow& pass, const FinishedFilm& f) {
 void addLayer(ExrFile& file, const FinishedFilm& f, const PassRow& pass) {
   if (isLight(pass)) return addLight(file, f, pass);
   if (isMatte(pass)) return addMattes(file, f, pass);
-  const auto row = std::find_if(kLayerNames.begin(), kLayerNames.end(),
-                                [&](const LayerNames& names) { return names.pass == pass.pass; });
-  std::vector<std::string> names;
-  for (const std::string_view channel : row->channels)
-    if (!channel.empty()) names.emplace_back(channel);
-  addChannels(file, valuesOf(pass, f), names);
+  addChannels(file, valuesOf(pass, f), channelsOf(pass));
 }
 
 /// A pass as a file of its own: its values are the colours.

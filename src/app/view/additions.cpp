@@ -73,7 +73,7 @@ Scene sceneOfShape(std::string_view name) {
   Shape shape(rowCalled<ShapeType>(name));
   fill(shape);
   constexpr Box3 kNear{{-1, -1, -1}, {1, 1, 1}};
-  const Affine turn = upright(name, {0, 1, 0});
+  const Affine turn = upright(shape.type(), {0, 1, 0});
   const Box3 box = turn * drawnBounds(shape, kNear);
   const Real longest = maxComponent(box.size());
   const Affine placed = box.empty() || !(longest > 0) ? Affine()

@@ -93,7 +93,9 @@ Offer Chains::offer(PixelTracer& tracer, Path& here, Numbers& numbers, MoveKind&
     case MoveKind::lens: return moves.lens(here);
     case MoveKind::caustic: return moves.caustic(here);
     case MoveKind::multiChain: return moves.multiChain(here);
-    default: break;
+    case MoveKind::bidirectional:
+    case MoveKind::nearby:
+    case MoveKind::anywhere: break;
   }
   Offer offer = moves.bidirectional(here);
   if (offer.path.brightness > 0)

@@ -1,6 +1,6 @@
 #include "render/integrators/make_integrator.h"
 
-#include <array>
+#include <stdexcept>
 #include <string>
 
 #include "base/error.h"
@@ -14,38 +14,23 @@
 namespace trace {
 namespace {
 
-template <class Kind, auto... kArguments>
-std::unique_ptr<Integrator> make(const Settings&) {
-  return std::make_unique<Kind>(kArguments...);
+/// A kind that is forgotten here is a warning of the compiler.
+std::unique_ptr<Integrator> made(const Settings& settings) {
+  switch (settings.integrator) {
+    case IntegratorKind::whitted: return std::make_unique<Whitted>();
+    case IntegratorKind::path: return std::make_unique<PathTracer>();
+    case IntegratorKind::direct: return std::make_unique<PathTracer>(false);
+    case IntegratorKind::bdpt: return std::make_unique<Bidirectional>();
+    case IntegratorKind::mlt:
+      if (settings.chains == Chains::bdpt) return std::make_unique<Bidirectional>(true);
+      return std::make_unique<PathTracer>();
+    case IntegratorKind::photon: return std::make_unique<PhotonTracer>();
+    case IntegratorKind::occlusion: return std::make_unique<Occlusion>();
+    case IntegratorKind::normals: return std::make_unique<Normals>();
+    case IntegratorKind::cost: return std::make_unique<Cost>();
+  }
+  throw std::logic_error("no integrator is of that kind");
 }
-
-std::unique_ptr<Integrator> makeForChains(const Settings& settings) {
-  if (settings.chains == Chains::bdpt) return std::make_unique<Bidirectional>(true);
-  return std::make_unique<PathTracer>();
-}
-
-struct Maker {
-  IntegratorKind kind;
-  std::unique_ptr<Integrator> (*make)(const Settings& settings);
-};
-/// In the order of the enum.
-constexpr std::array kMakers{
-    Maker{IntegratorKind::whitted, make<Whitted>},
-    Maker{IntegratorKind::path, make<PathTracer>},
-    Maker{IntegratorKind::direct, make<PathTracer, false>},
-    Maker{IntegratorKind::bdpt, make<Bidirectional>},
-    Maker{IntegratorKind::mlt, makeForChains},
-    Maker{IntegratorKind::photon, make<PhotonTracer>},
-    Maker{IntegratorKind::occlusion, make<Occlusion>},
-    Maker{IntegratorKind::normals, make<Normals>},
-    Maker{IntegratorKind::cost, make<Cost>},
-};
-constexpr bool inOrder() {
-  for (std::size_t i = 0; i < kMakers.size(); ++i)
-    if (static_cast<std::size_t>(kMakers[i].kind) != i) return false;
-  return true;
-}
-static_assert(inOrder());
 
 /// Features that Veach's mutations do not support.
 void refuseForVeach(const World& world, const Settings& settings) {
@@ -67,7 +52,7 @@ void refuseForVeach(const World& world, const Settings& settings) {
 }  // namespace
 
 std::unique_ptr<const Integrator> makeIntegrator(const World& world, const Settings& settings, Job& job) {
-  auto integrator = kMakers[static_cast<std::size_t>(settings.integrator)].make(settings);
+  auto integrator = made(settings);
   if (changesPaths(settings)) refuseForVeach(world, settings);
   integrator->prepare(world, settings, job);
   return integrator;

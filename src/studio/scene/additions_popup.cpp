@@ -62,7 +62,7 @@ Affine inSight(const Studio& studio, const Shape& shape) {
   if (!session) return {};
   const Middle middle = middleOf(*session);
   const Vec3& updir = session->scene().camera.updir;
-  const Affine turn = upright(shape.keyword(), updir);
+  const Affine turn = upright(shape.type(), updir);
   const Box3 own = drawnBounds(shape, kEverywhere);
   const Box3 bounds = own.empty() || own.unbounded() ? own : turn * own;
   const std::vector<Box3> others = boxesOf(studio.workspace.document.scene());

@@ -120,6 +120,7 @@ struct Frustum {
 struct Cone {
   static constexpr std::string_view kKeyword = "cone";
   static constexpr std::string_view kHelp = "cone or truncated cone along z, from z = 0 to z = height";
+  static constexpr bool kAlongZ = true;
 
   Real height = 1, bottomRadius = 1, topRadius = 0;
   bool capped = true;
@@ -146,6 +147,7 @@ struct Cone {
 struct Cylinder {
   static constexpr std::string_view kKeyword = "cylinder";
   static constexpr std::string_view kHelp = "cylinder of radius 1 along z, from z = 0 to z = 1";
+  static constexpr bool kAlongZ = true;
 
   bool capped = true;
 

@@ -13,6 +13,7 @@ struct Conic {
   static constexpr std::string_view kKeyword = "conic";
   static constexpr std::string_view kHelp =
       "cone, truncated cone or cylinder along z, between z_min and z_max";
+  static constexpr bool kAlongZ = true;
 
   Real bottomRadius = 1, topRadius = 0, zMin = 0, zMax = 1;
   bool capped = true;

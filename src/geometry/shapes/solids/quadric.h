@@ -76,6 +76,7 @@ struct Paraboloid {
   static constexpr std::string_view kKeyword = "paraboloid";
   static constexpr std::string_view kHelp =
       "bowl: a parabola turned around z, from its lowest point at the origin up";
+  static constexpr bool kAlongZ = true;
 
   Real height = 1, radius = 1;
   bool capped = true;
@@ -97,6 +98,7 @@ struct Hyperboloid {
   static constexpr std::string_view kKeyword = "hyperboloid";
   static constexpr std::string_view kHelp =
       "hyperboloid of one sheet around z: a tower with a waist at z = 0";
+  static constexpr bool kAlongZ = true;
 
   Real height = 2, radius = 1, waist = 0.5;
   bool capped = true;
@@ -120,6 +122,7 @@ struct Hyperboloid {
 struct TwoSheets {
   static constexpr std::string_view kKeyword = "two_sheets";
   static constexpr std::string_view kHelp = "hyperboloid of two sheets around z: two bowls back to back";
+  static constexpr bool kAlongZ = true;
 
   Real height = 2, radius = 1, gap = 0.4;
   bool capped = true;
@@ -145,6 +148,7 @@ struct EllipticCone {
   static constexpr std::string_view kKeyword = "elliptic_cone";
   static constexpr std::string_view kHelp =
       "cone along z with an elliptic base at z = 0 and its tip at z = height";
+  static constexpr bool kAlongZ = true;
 
   Real height = 1, radiusX = 1, radiusY = 0.5;
   bool capped = true;

@@ -21,6 +21,7 @@ class TracedLathe;
 struct Lathe {
   static constexpr std::string_view kKeyword = "lathe";
   static constexpr std::string_view kHelp = "surface of revolution: a profile rotated around z";
+  static constexpr bool kAlongZ = true;
 
   std::vector<std::array<Real, 2>> profile{{0.4, 0}, {1.2, 0.3}, {0.1, 0.9}, {0.5, 1.5}};
   Spline spline = Spline::bezier;
