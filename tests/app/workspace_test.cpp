@@ -791,6 +791,23 @@ TEST_F(WorkspaceTest, AFilmThatIsGivenUpIsNotWrittenAndSaysHowFarItIsBefore) {
   EXPECT_EQ(workspace.savingShare(), 0);
 }
 
+TEST_F(WorkspaceTest, TheKindOfAnEnvironmentIsTold) {
+  Workspace workspace;
+  ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "40", {}}}));
+  for (const char* face : {"posx", "negx", "posy", "negy", "posz", "negz"})
+    writePicture(path(std::string("sky_") + face + ".png"), Picture(4, 4));
+  writePicture(path("round.png"), Picture(8, 4));
+  const auto toldOf = [&](const char* file) {
+    workspace.choose("environment", path(file));
+    EXPECT_TRUE(settled(workspace));
+    std::string told;
+    for (const Workspace::LogEntry& entry : workspace.log()) told += entry.text + "\n";
+    return told;
+  };
+  EXPECT_NE(toldOf("sky_posx.png").find("a cube of six faces"), std::string::npos);
+  EXPECT_NE(toldOf("round.png").find("a lat-long map"), std::string::npos);
+}
+
 TEST_F(WorkspaceTest, NothingNewIsProposedAmongTheExamples) {
   Workspace workspace;
   ASSERT_TRUE(opened(workspace, path("scene.ray"), {{"width", "40", {}}}));

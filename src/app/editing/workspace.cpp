@@ -213,6 +213,15 @@ void Workspace::giveUpWanted() {
   givenUp_ = wantedNumber_;
 }
 
+void Workspace::noteEnvironment() {
+  const auto& map = document.scene().surroundings.sharpEnvironment;
+  if (!map) return;
+  const EnvironmentKind kind = map->kind();
+  note(std::string("the environment is ") + (kind == EnvironmentKind::angular   ? "an angular map"
+                                             : kind == EnvironmentKind::latLong ? "a lat-long map"
+                                                                                : "a cube of six faces"));
+}
+
 void Workspace::takeReread() {
   const std::optional<Reread> reread = rereading_.take();
   if (!reread || !wanted_ || reread->number <= givenUp_) return;
@@ -226,6 +235,7 @@ void Workspace::takeReread() {
   } else if (!document.apply(change, *reread->reading.value)) {
     if (last) want(*std::exchange(wanted_, std::nullopt));
   } else {
+    if (change.option == "environment") noteEnvironment();
     if (change.anew)
       note(shown(document.file()) + " changed on disk and was read again; undo takes that back");
     if (last)

@@ -197,6 +197,7 @@ class Workspace {
   void want(Document::Change change);
   void giveUpWanted();
   void takeReread();
+  void noteEnvironment();
   void takeCompleted();
   void takeReference();
   void takeSaved();
