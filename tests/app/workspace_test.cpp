@@ -799,7 +799,9 @@ TEST_F(WorkspaceTest, TheKindOfAnEnvironmentIsTold) {
   writePicture(path("round.png"), Picture(8, 4));
   const auto toldOf = [&](const char* file) {
     workspace.choose("environment", path(file));
-    EXPECT_TRUE(settled(workspace));
+    workspace.update();
+    waitFor(workspace.render);
+    workspace.update();
     std::string told;
     for (const Workspace::LogEntry& entry : workspace.log()) told += entry.text + "\n";
     return told;

@@ -213,15 +213,6 @@ void Workspace::giveUpWanted() {
   givenUp_ = wantedNumber_;
 }
 
-void Workspace::noteEnvironment() {
-  const auto& map = document.scene().surroundings.sharpEnvironment;
-  if (!map) return;
-  const EnvironmentKind kind = map->kind();
-  note(std::string("the environment is ") + (kind == EnvironmentKind::angular   ? "an angular map"
-                                             : kind == EnvironmentKind::latLong ? "a lat-long map"
-                                                                                : "a cube of six faces"));
-}
-
 void Workspace::takeReread() {
   const std::optional<Reread> reread = rereading_.take();
   if (!reread || !wanted_ || reread->number <= givenUp_) return;
@@ -235,7 +226,6 @@ void Workspace::takeReread() {
   } else if (!document.apply(change, *reread->reading.value)) {
     if (last) want(*std::exchange(wanted_, std::nullopt));
   } else {
-    if (change.option == "environment") noteEnvironment();
     if (change.anew)
       note(shown(document.file()) + " changed on disk and was read again; undo takes that back");
     if (last)
@@ -494,11 +484,23 @@ void Workspace::reloadIfChanged() {
   want({.anew = true});
 }
 
+void Workspace::noteEnvironment(const Session& session) {
+  const Surroundings& now = session.scene().surroundings;
+  const std::string file = now.sharpEnvironment ? now.environmentFile.path : "";
+  if (std::exchange(environment_, file) == file || file.empty()) return;
+  const EnvironmentKind kind = now.sharpEnvironment->kind();
+  note(shown(file) + ": the environment is " +
+       (kind == EnvironmentKind::angular   ? "an angular map"
+        : kind == EnvironmentKind::latLong ? "a lat-long map"
+                                           : "a cube of six faces"));
+}
+
 void Workspace::noteEnd() {
   const BackgroundRender::State state = render.state();
   if (state.working() || state.number == reported_) return;
   reported_ = state.number;
   if (state.phase != BackgroundRender::Phase::finished) return;
+  noteEnvironment(*render.session());
   const Size size = render.session()->size();
   const RenderResult result = render.result();
   note("rendered " + std::to_string(size.width) + " x " + std::to_string(size.height) + " in " +

@@ -197,7 +197,6 @@ class Workspace {
   void want(Document::Change change);
   void giveUpWanted();
   void takeReread();
-  void noteEnvironment();
   void takeCompleted();
   void takeReference();
   void takeSaved();
@@ -205,9 +204,11 @@ class Workspace {
   /// An edit.
   void refuse(const std::string& what, const std::string& why, const std::string& hint = {});
   void noteEnd();
+  void noteEnvironment(const Session& session);  ///< its kind, once
   void reloadIfChanged();
   void reportReading();  // its warnings, once
 
+  std::string environment_;  // whose kind the log has
   std::optional<Picture> reference_;
   std::string referenceFile_;
   bool referenceIsLinear_ = false;
