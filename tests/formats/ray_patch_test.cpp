@@ -10,6 +10,7 @@
 
 #include "formats/ray/syntax/syntax.h"
 #include "formats/ray/write/patch.h"
+#include "formats/ray/write/transform.h"
 #include "formats/ray_patch_helpers.h"
 #include "geometry/shapes/solids/cone.h"
 #include "geometry/shapes/solids/sphere.h"
@@ -461,6 +462,26 @@ TEST(RayPatch, AMaterialOfCopiesIsChangedWhereItIsSaid) {
           if (m.name == "wood") m.model.edit<Phong>()->diffuse.r = 0.5;
       },
       1);
+}
+
+TEST(RayPatch, ATurnedObjectIsWrittenWithItsTurn) {
+  for (const char* box :
+       {"translate(-0.79124, 0.43561, 3.065, scale(0.43561, box {}))",
+        "translate(1, 2, 3, scale(0.5, 2, 1, box {}))", "translate(1, 2, 3, box {})", "box {}"})
+    for (const Real degrees : {28, -90, 5}) {
+      const SceneText read = reading("test.ray", std::string("SBT-raytracer 1.0\n") + box + "\n");
+      const Saved result = edited(read, [&](Scene& s) {
+        Affine& placed = s.objects[0].worldFromObject;
+        const Vec3 middle = placed.offset;
+        placed = rayfile::inShortNumbers(Affine::translation(middle) *
+                                             Affine::rotation({0, 1, 0}, degrees * kPi / 180) *
+                                             Affine::translation(-middle) * placed,
+                                         9);
+      });
+      EXPECT_EQ(result.text.find("transform"), std::string::npos) << result.text;
+      EXPECT_NE(result.text.find("rotate"), std::string::npos) << result.text;
+      EXPECT_LT(result.text.size(), 160u) << result.text;
+    }
 }
 
 TEST(RayPatch, AMaterialOfTheLibraryIsWrittenByItsName) {

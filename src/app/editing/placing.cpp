@@ -87,6 +87,13 @@ Affine placedInSight(const Box3& bounds, const CameraFrame& camera, const Vec3& 
   return Affine::translation(middle - bounds.center() * factor) * Affine::scaling(Vec3(1, 1, 1) * factor);
 }
 
+Affine onItsFoot(const Box3& before, const Affine& placed, const Box3& after, const Vec3& updir) {
+  const Vec3 up = upOf(updir);
+  const auto foot = [&](const Box3& box) { return std::min(dot(box.low, up), dot(box.high, up)); };
+  if (before.empty() || after.empty() || before.unbounded() || after.unbounded()) return placed;
+  return Affine::translation(up * (foot(before) - foot(after))) * placed;
+}
+
 Vec3 letDown(const Box3& own, const Vec3& updir,
              const std::function<std::optional<Real>(const Ray&)>& distance) {
   const Vec3 up = upOf(updir);
@@ -128,9 +135,14 @@ Vec3 freedFrom(const std::vector<Box3>& others, const Box3& own, const CameraFra
   const Vec3 back = cross(right, up);
   const Real step = 0.55 * maxComponent(own.size());
   constexpr int kSteps = 6;
-  for (int i = 1; i <= kSteps; ++i)
-    for (const Vec3& way : {right, -right, back})
-      if (const Vec3 by = way * (step * i); isFree(by)) return by;
+  const auto isSeen = [&](const Vec3& by) {
+    const auto at = camera.placeOf(own.center() + by);
+    return at && at->x > 0 && at->x < 1 && at->y > 0 && at->y < 1;
+  };
+  for (const bool seen : {true, false})
+    for (int i = 1; i <= kSteps; ++i)
+      for (const Vec3& way : {right, -right, back})
+        if (const Vec3 by = way * (step * i); (!seen || isSeen(by)) && isFree(by)) return by;
   for (int i = 1; i <= 2 * kSteps; ++i)
     if (const Vec3 by = up * (step * i); isFree(by)) return by;
   return {};
@@ -197,30 +209,31 @@ std::optional<Affine> placedAmong(const Box3& bounds, const CameraFrame& camera,
   constexpr int kPlaces = 17;               // along each side of the picture
   constexpr Real kRim = 0.02, kFlat = 0.8;  // shares of the picture; least cosine
   // Against the distance from the middle: across, and by the logarithm in depth, which counts twice.
-  constexpr Real kHides = 2, kNarrow = 4, kDepth = 2;
+  constexpr Real kHides = 2, kNarrow = 4, kDepth = 2, kSmaller = 1;
   const Vec3 up = upOf(updir);
   const auto distanceTo = [&](const SeenObject& seen) { return length(seen.surface.point - camera.eye); };
   const auto middle = lookAt({0.5, 0.5});
   std::optional<Affine> best;
-  for (const Real smaller : {1.0, 0.6, 0.35}) {
-    Real least = kInfinity;
+  Real least = kInfinity;
+  for (const Real smaller : {1.0, 0.6, 0.35}) {  // rather smaller than far away
     for (int i = 0; i < kPlaces * kPlaces; ++i) {
       const Vec2 place{(i % kPlaces + 0.5) / kPlaces, (i / kPlaces + 0.5) / kPlaces};
-      Real cost = math::hypot(place.x - 0.5, place.y - 0.5);
+      Real cost = math::hypot(place.x - 0.5, place.y - 0.5) + kSmaller * (1 - smaller);
       if (cost >= least) continue;
       const auto seen = lookAt(place);
       if (!seen || dot(normalToward(camera.eye, seen->surface), up) < kFlat) continue;
       if (middle) cost += kDepth * std::abs(math::log(distanceTo(*seen) / distanceTo(*middle)));
       const Vec3& foot = seen->surface.point;
+      const Affine first = placedInSight(bounds, camera, updir, seen->surface, 0);
       const Affine placed = Affine::translation(foot) * Affine::scaling(Vec3(1, 1, 1) * smaller) *
-                            Affine::translation(-foot) *
-                            placedInSight(bounds, camera, updir, seen->surface, 0);
+                            Affine::translation(-foot) * first;
+      const Box3 full = first * bounds;
       const Box3 own = placed * bounds;
       const auto shown = shownOf(own, camera);
       if (!shown || shown->low.x < kRim || shown->low.y < kRim || shown->high.x > 1 - kRim ||
           shown->high.y > 1 - kRim)
         continue;
-      if (!isWide(seen->box, own, up)) cost += kNarrow;
+      if (!isWide(seen->box, full, up)) cost += kNarrow;
       for (const Box3& other : others) {
         if (other == seen->box || isRoom(other, own, camera.eye)) continue;
         const auto hidden = shownOf(other, camera);
@@ -230,7 +243,6 @@ std::optional<Affine> placedAmong(const Box3& bounds, const CameraFrame& camera,
       least = cost;
       best = placed;
     }
-    if (best) return best;
   }
   return best;
 }
@@ -241,6 +253,23 @@ Vec3 placeOfLight(const CameraFrame& camera, const Vec3& updir, const Vec3& targ
   return target + (up * 0.6 - normalize(camera.right) * 0.4) * distance + back * 0.15;
 }
 
+/// To three digits of the largest, as a person would write it.
+static Vec3 shortVec(const Vec3& v) {
+  const Real most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(most > 0) || !std::isfinite(most)) return v;
+  const Real step = math::pow(10, std::floor(math::log(most) / math::log(10.0)) - 2);
+  const auto near = [&](Real x) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.12g", std::round(x / step) * step);
+    return std::strtod(text, nullptr);
+  };
+  return {near(v.x), near(v.y), near(v.z)};
+}
+static Color shortColor(const Color& c) {
+  const Vec3 v = shortVec({c.r, c.g, c.b});
+  return {v.x, v.y, v.z};
+}
+
 void aimLight(Light& light, const Vec3& position, const Vec3& target) {
   constexpr Real kBright = 0.5;  // the brightness of a white surface there; nearer ones are brighter
   const Vec3 toward = target - position;
@@ -248,18 +277,18 @@ void aimLight(Light& light, const Vec3& position, const Vec3& target) {
   if (!(distance > 0)) return;
   Color* color = editableValue<Color>(light, "color");
   if (color) *color = Color(1);
-  if (Vec3* to = editableValue<Vec3>(light, "direction")) *to = toward;
+  if (Vec3* to = editableValue<Vec3>(light, "direction")) *to = shortVec(toward);
   Vec3* at = editableValue<Vec3>(light, "position");
   if (!at) return;
-  *at = position;
+  *at = shortVec(position);
   Vec3 *u = editableValue<Vec3>(light, "u"), *v = editableValue<Vec3>(light, "v");
   if (u && v) {  // as wide as a third of the distance; it shines toward u x v
     const Basis across = Frame{toward / distance}.basis();
     const Real side = distance / 3;
-    *u = across.x * side;
-    *v = across.y * side;
+    *u = shortVec(across.x * side);
+    *v = shortVec(across.y * side);
     if (dot(cross(*u, *v), toward) < 0) *v = -*v;
-    if (color) *color = Color(kBright * kPi * distance * distance / (side * side));
+    if (color) *color = shortColor(Color(kBright * kPi * distance * distance / (side * side)));
     return;
   }
   const auto of = [&](std::string_view keyword) {
@@ -268,7 +297,7 @@ void aimLight(Light& light, const Vec3& position, const Vec3& target) {
   };
   const Real fading = of("constant_attenuation_coeff") + of("linear_attenuation_coeff") * distance +
                       of("quadratic_attenuation_coeff") * distance * distance;
-  if (color && fading > 0) *color = Color(kBright * fading);
+  if (color && fading > 0) *color = shortColor(Color(kBright * fading));
 }
 
 bool cameraSees(const Camera& camera) {

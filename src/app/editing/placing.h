@@ -61,6 +61,9 @@ std::optional<Affine> placedAmong(const Box3& bounds, const CameraFrame& camera,
 Affine placedInSight(const Box3& bounds, const CameraFrame& camera, const Vec3& updir,
                      const std::optional<SurfacePoint>& there, Real ahead);
 
+/// Moved so that the lowest place of its box is where it was before.
+Affine onItsFoot(const Box3& before, const Affine& placed, const Box3& after, const Vec3& updir);
+
 /// The move that lets a new object, whose box this is, down onto what is below it. `distance` finds the first
 /// thing that a ray hits. None if there is nothing below.
 Vec3 letDown(const Box3& own, const Vec3& updir,

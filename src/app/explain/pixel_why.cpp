@@ -386,7 +386,7 @@ std::vector<WhySummand> sumOf(const RayTree& tree, const Scene& scene, int ray) 
     }
     const Color color =
         term.factor * (term.ray < 0 ? term.value : rayAt(tree, term.ray).radiance) * root.through;
-    if (term.dark || (isBlack(color) && term.ray < 0 && !term.light)) continue;
+    if (term.dark || (isBlack(color) && term.ray < 0)) continue;
     const auto same =
         std::find_if(sum.begin(), sum.end(), [&](const WhySummand& s) { return s.name == name; });
     const int last = term.ray < 0 ? ray : lastBelow(tree, term.ray);

@@ -48,7 +48,7 @@ Scene sceneOf(const std::string& text) {
 std::string_view helpOf(std::string_view material) {
   for (const Finish& finish : finishes())
     if (finish.name == material) return finish.looks;
-  return "a substance that light passes";
+  return "a transparent substance";
 }
 
 /// Something to be seen of a solid of solids that has no solids yet.

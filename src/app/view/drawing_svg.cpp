@@ -58,7 +58,8 @@ std::string toSvg(const Drawing& drawing) {
   const std::string size = attribute("width", drawing.width) + attribute("height", drawing.height);
   std::string text =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\"" + size +
-      ">\n<rect" + size + " fill=\"#ffffff\"/>\n";
+      " viewBox=\"0 0 " + number(drawing.width) + " " + number(drawing.height) + "\">\n<rect" + size +
+      " fill=\"#ffffff\"/>\n";
   int frames = 0;
   for (const Drawn& thing : drawing.things) {
     match(thing,

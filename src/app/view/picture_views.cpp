@@ -215,6 +215,21 @@ Bytes fewerPixels(const Bytes& picture, int most) {
   return result;
 }
 
+bool holdsLevels(const Picture& picture) {
+  const auto isLevel = [](double value) {
+    const double level = 255 * value;
+    return value >= 0 && value <= 1 && std::abs(level - std::round(level)) < 1e-6;
+  };
+  return std::all_of(picture.pixels.begin(), picture.pixels.end(),
+                     [&](const Color& c) { return isLevel(c.r) && isLevel(c.g) && isLevel(c.b); });
+}
+
+Picture roundedToLevels(Picture levels, Rounding rounding) {
+  for (Color& c : levels.pixels)
+    c = Color(toLevel(c.r, rounding), toLevel(c.g, rounding), toLevel(c.b, rounding)) / 255.0;
+  return levels;
+}
+
 Picture clamped(Picture levels) {
   for (Color& c : levels.pixels) c = clamp01(c);
   return levels;

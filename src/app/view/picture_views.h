@@ -98,6 +98,11 @@ Picture resampled(const Picture& picture, int width, int height);
 /// "12.5 samples a pixel, noise 1.3 levels": how far a render has come.
 std::string convergenceText(const Convergence& convergence);
 
+/// Each value is one of the 256 levels of a file with eight bits.
+bool holdsLevels(const Picture& picture);
+/// The levels that such a file keeps of the picture.
+Picture roundedToLevels(Picture levels, Rounding rounding);
+
 /// The levels as a file keeps them that has none beyond 0 and 1: what a picture from such a file is compared
 /// with.
 Picture clamped(Picture levels);

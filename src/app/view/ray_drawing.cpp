@@ -93,6 +93,10 @@ class RayDrawing {
   RayDrawing(const RayTree& tree) : tree_(tree), segments_(raySegments(tree)) {}
 
   const std::vector<RaySegment>& segments() const { return segments_; }
+  bool has(RayLooks looks) const {
+    return std::any_of(segments_.begin(), segments_.end(),
+                       [&](const RaySegment& segment) { return segment.looks == looks; });
+  }
 
   /// Shadow rays below, so that they hide no others; thicker, the more a ray counts.
   void rays(Drawing& drawing, const Panel& panel) const {
@@ -184,7 +188,8 @@ Drawing drawRays(const Scene& scene, const Settings& settings, const World& worl
       y += kLine;
     }
   };
-  for (const RayLook& row : kRayLooks) entry(std::string(row.help), row.color, false);
+  for (std::size_t i = 0; i < kRayLooks.size(); ++i)
+    if (rays.has(static_cast<RayLooks>(i))) entry(std::string(kRayLooks[i].help), kRayLooks[i].color, false);
   entry("dashed: leaves the scene", kInk, true);
   entry("short: the surface's normal", kInk, false);
   return drawing;

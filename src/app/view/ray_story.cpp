@@ -110,12 +110,13 @@ Drawing RayStory::drawn(int rays, int rows, double grown) const {
                                    "pixel " + std::to_string(pixel_.x) + "," + std::to_string(pixel_.y) +
                                        (sample.empty() ? "" : ", " + sample) + ", " + std::to_string(rays) +
                                        " of " + std::to_string(this->rays()) + " rays"));
+  const int known = grown < 1 ? rays - 1 : rays;  // what a ray that grows came to is not said yet
   const bool beside = rows > kRows;  // the tree is longer than the view, and the sum is beside it
   const double end =
-      addSum(drawing, rays, beside ? wide_ + kSheetMargin : drawing.width - kSheetMargin) + kSheetMargin;
+      addSum(drawing, known, beside ? wide_ + kSheetMargin : drawing.width - kSheetMargin) + kSheetMargin;
   if (beside) drawing.height = std::max(drawing.height, static_cast<int>(end));
   addSpace(drawing, rays, grown);
-  addTree(drawing, rays, rows);
+  addTree(drawing, rays, rows, known);
   return drawing;
 }
 
@@ -255,7 +256,7 @@ void RayStory::addCamera(Drawing& drawing, const Panel& panel) const {
     }
 }
 
-void RayStory::addTree(Drawing& drawing, int rays, int rows) const {
+void RayStory::addTree(Drawing& drawing, int rays, int rows, int known) const {
   constexpr double kIndent = 14;
   constexpr int kMostLevels = 10;
   const double left = wide_ + 2 * kSheetMargin, top = kSheetMargin + 1.5 * kRowHigh;
@@ -274,12 +275,13 @@ void RayStory::addTree(Drawing& drawing, int rays, int rows) const {
     const double y = top + kRowHigh * (i - first),
                  x = left + kIndent * std::min(pixel_.level[static_cast<std::size_t>(i)], kMostLevels);
     drawing.things.push_back(DrawnLine{{x, y + 9}, {x + 12, y + 9}, looks.color, 4});
-    const std::string met = metBy(pixel_.tree(), pixel_.scene(), i);
+    const std::string met = i < known ? metBy(pixel_.tree(), pixel_.scene(), i) : "";
     drawing.things.push_back(
         wordsAt({x + 20, y}, cut(std::string(looks.name) + (met.empty() ? "" : ": " + met), adds - x - 28)));
     const RayNode& node = rayAt(pixel_.tree(), i);
+    if (i >= known) continue;
     drawing.things.push_back(wordsAt({ended, y}, cut(shortEnd(node), kEnded)));
-    if (node.kind == RayKind::light || !pixel_.isKnown(i, rays)) continue;
+    if (node.kind == RayKind::light || !pixel_.isKnown(i, known)) continue;
     char text[24];
     std::snprintf(text, sizeof text, "%.4f", share(pixel_.tree(), i));
     drawing.things.push_back(wordsAt({adds, y}, text));

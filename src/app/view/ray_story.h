@@ -32,7 +32,7 @@ class RayStory {
   void addSpace(Drawing& drawing, int rays, double grown) const;
   void addLights(Drawing& drawing, const Panel& panel) const;
   void addCamera(Drawing& drawing, const Panel& panel) const;
-  void addTree(Drawing& drawing, int rays, int rows) const;
+  void addTree(Drawing& drawing, int rays, int rows, int known) const;
   /// The sentence, and the sum in lines that end at `most`; the lower end of the last of them.
   double addSum(Drawing& drawing, int rays, double most) const;
 

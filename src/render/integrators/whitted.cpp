@@ -132,6 +132,10 @@ Color Whitted::along(Tracer& tracer, const Ray& ray, const std::optional<Hit>& h
     const Color filter = share.weight * at.filter(share);
     const Path next = onward(RayKind::refraction, filter);
     const std::uint32_t number = fan++;
+    if (isBlack(filter) && !at.through(share)) {  // by Fresnel's equations nothing is left for it
+      if (!std::exchange(total, true)) sum.stop(TotalInternalReflection{});
+      continue;
+    }
     if (!worthwhile(next)) continue;
     if (const auto to = at.through(share)) {
       Interfaces behind = at.behind();

@@ -101,7 +101,9 @@ void refresh(Studio& studio) {
       (pictureChanged || toneChanged || referenceChanged || view.differenceView != view.view ||
        view.differenceMagnify != view.magnify || view.differenceChosen != view.magnifyChosen)) {
     const bool colours = view.view == View::falseColour;
-    const Picture picture = workspace.referenceIsLinear() ? view.shown : clamped(view.levels);
+    Picture picture = workspace.referenceIsLinear() ? view.shown : clamped(view.levels);
+    if (!workspace.referenceIsLinear() && holdsLevels(view.reference))  // as its own file would have it
+      picture = roundedToLevels(std::move(picture), settings.rounding);
     const Picture seen = channelOf(picture, view.channel), other = channelOf(view.reference, view.channel);
     view.difference = differences(seen, other, 1);
     if (!view.magnifyChosen) view.magnify = static_cast<float>(magnificationFor(view.difference));
@@ -455,7 +457,7 @@ bool drawCanvas(Studio& studio, ImVec2 whole, ImVec2 room, int& x, int& y) {
   }
   if (differs && mode != View::picture) clipped(canvas, end, frame, view.differenceTexture);
   const ImVec2 corner{whole.x + 8, whole.y + 4};
-  float clear = canvas.y;  // below names of pictures
+  bool named = false;
   float captionEnd = whole.y - 4;
   if (!other.caption.empty()) {
     captionEnd = caption(corner, other.caption.c_str(), room.x - 16);
@@ -469,9 +471,7 @@ bool drawCanvas(Studio& studio, ImVec2 whole, ImVec2 room, int& x, int& y) {
                          room.x - 16);
     landmark("caption");
   } else if (two || mode == View::swipe) {
-    clear = caption({canvas.x + 8, canvas.y + 8}, "picture", area.x);
-    const float wide = ImGui::CalcTextSize("reference").x + 2 * ImGui::GetStyle().FramePadding.x;
-    caption({end.x - wide - 8, canvas.y + 8}, "reference", area.x);
+    named = true;  // after the numbers, so that these fill every pixel
   } else if (mode != View::picture) {
     const bool largest = mode == View::falseColour && view.channel == ShownChannel::all;
     const std::string text = std::string(kViewNames[static_cast<int>(mode)]) +
@@ -484,16 +484,16 @@ bool drawCanvas(Studio& studio, ImVec2 whole, ImVec2 room, int& x, int& y) {
   const Picture& linear = studio.workspace.referenceIsLinear() || !reference ? view.shown : view.levels;
   if (!other.texture) {
     if (mode == View::reference) {
-      if (comparable) numbersInPixels(studio, frame, {canvas.x, clear}, end, view.reference);
+      if (comparable) numbersInPixels(studio, frame, canvas, end, view.reference);
     } else if (differs && mode != View::picture) {
-      numbersInPixels(studio, frame, {canvas.x, clear}, end, view.difference);
+      numbersInPixels(studio, frame, canvas, end, view.difference);
     } else {
-      numbersInPixels(studio, frame, {canvas.x, clear}, {two ? canvas.x + part.x : line, end.y}, linear);
-      if (two) numbersInPixels(studio, second, {canvas.x + part.x + kGap, clear}, end, view.reference);
-      if (mode == View::swipe) numbersInPixels(studio, frame, {line, clear}, end, view.reference);
+      numbersInPixels(studio, frame, canvas, {two ? canvas.x + part.x : line, end.y}, linear);
+      if (two) numbersInPixels(studio, second, {canvas.x + part.x + kGap, canvas.y}, end, view.reference);
+      if (mode == View::swipe) numbersInPixels(studio, frame, {line, canvas.y}, end, view.reference);
     }
   }
-  if (heat) numbersInPixels(studio, frame, {canvas.x, clear}, end, view.planeMade.values, 1);
+  if (heat) numbersInPixels(studio, frame, canvas, end, view.planeMade.values, 1);
   if (scaled) {
     const ColourScale scale =
         heat ? view.planeMade.scale
@@ -502,7 +502,12 @@ bool drawCanvas(Studio& studio, ImVec2 whole, ImVec2 room, int& x, int& y) {
     if (scalePlace == ScalePlace::below)
       drawFlatScale(frame.low.x, frame.low.x + frame.size.x, frame.low.y + frame.size.y, scale, colours);
     else
-      drawScale({canvas.x, clear}, {whole.x + room.x, end.y}, scale, colours);
+      drawScale(canvas, {whole.x + room.x, end.y}, scale, colours);
+  }
+  if (named) {
+    caption({canvas.x + 8, canvas.y + 8}, "picture", area.x);
+    const float wide = ImGui::CalcTextSize("reference").x + 2 * ImGui::GetStyle().FramePadding.x;
+    caption({end.x - wide - 8, canvas.y + 8}, "reference", area.x);
   }
   if (counted) drawHistogram(studio, {canvas.x, end.y}, {whole.x + room.x, whole.y + room.y});
 

@@ -316,7 +316,7 @@ void drawRays(Studio& studio) {
     ImGui::TextDisabled(
         inspector.busy()
             ? "The rays of that pixel are being traced."
-            : "Click on the picture: the rays of that pixel appear here, in space and as a table.");
+            : "Click on the picture: the rays of that pixel appear here, in space and as a tree.");
     ImGui::PopTextWrapPos();
   } else if (!pixel) {
     ImGui::PushTextWrapPos();

@@ -14,9 +14,9 @@
 namespace trace::studio {
 namespace {
 
-constexpr int kMostIndented = 12;       // levels: deeper rays stand at the same margin
-constexpr float kWordsInFour = 48;      // characters that four columns need
-constexpr float kRowsWithNumbers = 11;  // rows of a table that leaves room for a line below it
+constexpr int kMostIndented = 12;      // levels: deeper rays stand at the same margin
+constexpr float kWordsInFour = 48;     // characters that four columns need
+constexpr float kRowsWithNumbers = 7;  // rows of a table that leaves room for a line below it
 
 /// Behind the row of the ray at fault.
 ImU32 faultColour(const Studio& studio) {
@@ -47,10 +47,10 @@ void drawTreeTable(Studio& studio, const TracedPixel& pixel, const std::vector<i
   if (std::exchange(view.focusTree, false)) ImGui::SetNextWindowFocus();
   if (!ImGui::BeginTable(ends ? "tree" : "narrow tree", ends ? 4 : 3, kRayTable, {0, -below})) return;
   ImGui::TableSetupScrollFreeze(0, 1);
-  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, ends ? 0.44f : 0.6f);
-  ImGui::TableSetupColumn("hit", ImGuiTableColumnFlags_WidthStretch, ends ? 0.24f : 0.4f);
+  ImGui::TableSetupColumn("ray", ImGuiTableColumnFlags_WidthStretch, ends ? 0.38f : 0.55f);
+  ImGui::TableSetupColumn("hit", ImGuiTableColumnFlags_WidthStretch, ends ? 0.34f : 0.45f);
   ImGui::TableSetupColumn("adds", ImGuiTableColumnFlags_WidthFixed, characters(ends ? 9 : 7));
-  if (ends) ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.32f);
+  if (ends) ImGui::TableSetupColumn("ended", ImGuiTableColumnFlags_WidthStretch, 0.28f);
   columnHeads({"its kind and its secondary rays", "the object, light or medium that it came to",
                "the luminance that it adds to this sample: its radiance times its weight there",
                "why it ended, or how it continues"},

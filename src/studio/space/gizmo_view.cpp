@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/editing/placing.h"
+#include "formats/ray/write/transform.h"
 #include "studio/scene/selection.h"
 #include "studio/space/rays_view.h"
 #include "studio/studio.h"
@@ -56,7 +57,20 @@ Gizmo gizmoOf(const Studio& studio, const Held& held, const CameraFrame& view) {
   return gizmoFor(light ? GizmoMode::move : studio.rays.gizmo.mode, held.placed, held.center, view);
 }
 
+/// A scaled object keeps its foot where it is.
+Affine standing(const Studio& studio, const Affine& before, const Affine& placed) {
+  const Scene& scene = studio.workspace.document.scene();
+  if (studio.selected != Studio::Selected::object || studio.selectedIndex >= scene.objects.size())
+    return placed;
+  Object object = scene.objects[studio.selectedIndex];
+  object.worldFromObject = before;
+  const Box3 was = boxOf(object);
+  object.worldFromObject = placed;
+  return withoutNoise(onItsFoot(was, placed, boxOf(object), scene.camera.updir));
+}
+
 void place(Studio& studio, const Affine& placed) {
+  if (!keepsObject(placed)) return;
   Scene scene = studio.workspace.document.scene();
   const std::size_t index = studio.selectedIndex;
   std::string name;
@@ -100,8 +114,13 @@ bool dragGizmo(Studio& studio, const SpaceFrame& frame) {
   if (!gizmo.held) return false;
   const auto by = draggedBy(*gizmo.held, gizmo.handle, frame.view, gizmo.from, cursorIn(frame));
   const auto thing = by ? selectedThing(studio) : std::nullopt;
-  const Affine placed = by ? withoutNoise(*by * gizmo.placed) : gizmo.placed;
-  if (thing && keepsObject(placed)) place(studio, placed);
+  if (!thing) return true;
+  constexpr int kDigits = 9;
+  const Affine dragged = withoutNoise(*by * gizmo.placed);
+  const GizmoMode mode = gizmo.held->mode;
+  place(studio, mode == GizmoMode::move    ? dragged
+                : mode == GizmoMode::scale ? standing(studio, gizmo.placed, dragged)
+                                           : rayfile::inShortNumbers(dragged, kDigits));
   return true;
 }
 

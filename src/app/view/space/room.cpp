@@ -87,7 +87,7 @@ std::optional<Found> closestShown(const World& world, const Ray& ray, const std:
 }
 
 bool showsWell(const CameraFrame& view, const Box3& box, const std::vector<Vec3>& points) {
-  constexpr Real kRim = 0.04, kLarge = 0.3;  // shares of the view
+  constexpr Real kRim = 0.04, kLarge = 0.5;  // shares of the view
   for (const Vec3& point : points) {
     const auto at = view.placeOf(point);
     if (!at || at->x < kRim || at->y < kRim || at->x > 1 - kRim || at->y > 1 - kRim) return false;

@@ -146,6 +146,7 @@ class Fitting {
         if (own_[i].kind == form)
           if (const auto found = byOne(i)) return found;
     if (const auto found = byTurnAndScale()) return found;
+    if (const auto found = byNewTurn()) return found;
     return byMatrix();
   }
 
@@ -217,6 +218,21 @@ class Fitting {
     steps = simpler(steps, turn);
     steps[scale] = *scaled;
     return settled(simpler(steps, scale));
+  }
+
+  /// Where nothing turned before: a translation, the new turn, and what scales.
+  std::optional<Steps> byNewTurn() const {
+    const auto turns = [](const Step& step) { return step.kind == Form::rotate; };
+    const auto isMatrix = [](const Step& step) { return step.kind == Form::matrix; };
+    if (std::any_of(own_.begin(), own_.end(), turns) || std::any_of(own_.begin(), own_.end(), isMatrix))
+      return {};
+    Steps steps = stepsOf(outer_ == Affine{} ? target_ : inverse(outer_) * target_);
+    const auto turn = std::find_if(steps.begin(), steps.end(), turns);
+    if (turn == steps.end()) return {};
+    steps.erase(turn + 1, steps.end());
+    const bool moved = own_.front().kind == Form::translate;  // the turn takes its place
+    steps.insert(steps.end(), own_.begin() + (moved ? 1 : 0), own_.end());
+    return steps.size() < own_.size() ? std::nullopt : checked(std::move(steps));
   }
 
   /// The outermost step becomes a matrix that does what is left.
