@@ -110,7 +110,7 @@ Drawing RayStory::drawn(int rays, int rows, double grown) const {
                                    "pixel " + std::to_string(pixel_.x) + "," + std::to_string(pixel_.y) +
                                        (sample.empty() ? "" : ", " + sample) + ", " + std::to_string(rays) +
                                        " of " + std::to_string(this->rays()) + " rays"));
-  const int known = grown < 1 ? rays - 1 : rays;  // what a ray that grows came to is not said yet
+  const int known = grown < 1 ? rays - 1 : rays;  // a ray that grows has come to nothing yet
   const bool beside = rows > kRows;  // the tree is longer than the view, and the sum is beside it
   const double end =
       addSum(drawing, known, beside ? wide_ + kSheetMargin : drawing.width - kSheetMargin) + kSheetMargin;
