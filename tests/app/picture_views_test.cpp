@@ -202,5 +202,17 @@ TEST(PictureViews, DifferencesAreMagnifiedUntilTheyAreSeen) {
   EXPECT_EQ(magnificationFor(apart), 128);
 }
 
+TEST(PictureViews, APictureAndItsOwnFileHaveNoDifference) {
+  Picture exact(3, 1);
+  exact.pixels = {Color(0.1234), Color(0.5, 0.25, 0.001), Color(1)};
+  for (const Rounding rounding : {Rounding::truncate, Rounding::nearest}) {
+    const Picture file = roundedToLevels(exact, rounding);
+    EXPECT_FALSE(holdsLevels(exact));
+    EXPECT_TRUE(holdsLevels(file));
+    EXPECT_EQ(differences(roundedToLevels(exact, rounding), file, 1), Picture(3, 1));
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(file.pixels[i].r, exact.pixels[i].r, 1.01 / 255);
+  }
+}
+
 }  // namespace
 }  // namespace trace::test

@@ -236,5 +236,22 @@ TEST(Placing, ANewObjectIsLetDownOntoTheFloor) {
   expectNear(letDown(own, {0, 1, 0}, within), {});
 }
 
+TEST(Placing, AScaledObjectKeepsItsFoot) {
+  const Box3 was{{-1, 0, -1}, {1, 2, 1}}, is{{-1, -1, -1}, {1, 3, 1}};
+  expectNear(onItsFoot(was, {}, is, {0, 1, 0}).offset, {0, 1, 0});
+  expectNear(onItsFoot(was, {}, is, {0, -1, 0}).offset, {0, -1, 0});  // what is up there is down
+  EXPECT_EQ(onItsFoot({}, kPlaced, is, {0, 1, 0}), kPlaced);
+}
+
+TEST(Placing, ACopyStaysInThePictureWhereItCan) {
+  Camera camera;
+  camera.position = {0, 1, 10}, camera.viewdir = {0, 0, -1}, camera.fov = 40;
+  const CameraFrame view = frame(camera, CameraAxes::orthonormal);
+  const Box3 right{{2.4, 0, -1}, {4.4, 2, 1}};  // a copy to its right would leave the picture
+  EXPECT_LT(freedFrom({right}, right, view, camera.updir).x, 0);
+  const Box3 left{{-4.4, 0, -1}, {-2.4, 2, 1}};
+  EXPECT_GT(freedFrom({left}, left, view, camera.updir).x, 0);
+}
+
 }  // namespace
 }  // namespace trace::test
