@@ -41,21 +41,20 @@ bool isFactor(Real factor) { return std::abs(factor) <= 1e6 && std::abs(factor) 
 
 Affine stretched(const Affine& placed, const Vec3& factors) { return placed * Affine::scaling(factors); }
 
+/// Without the last digits, which only rounding made.
+static Real toTwelveDigits(Real x) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.12g", x);
+  return std::strtod(text, nullptr);
+}
+
 Affine withoutNoise(const Affine& placed) {
-  const auto clean = [](Vec3& v, Real size) {
-    constexpr int kDigits = 12;
-    char text[40];
-    for (int i = 0; i < 3; ++i) {
-      std::snprintf(text, sizeof text, "%.*e", kDigits - 1, v[i]);
-      v[i] = std::abs(v[i]) < 1e-13 * size ? 0 : std::strtod(text, nullptr);
-    }
-  };
   Affine result = placed;
   Real size = 0;
+  for (const Vec3& v : {placed.row[0], placed.row[1], placed.row[2], placed.offset})
+    size = std::max({size, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      size = std::max({size, std::abs(placed.row[i][j]), std::abs(placed.offset[j])});
-  clean(result.offset, size);
+    result.offset[i] = std::abs(placed.offset[i]) < 1e-13 * size ? 0 : toTwelveDigits(placed.offset[i]);
   return result;
 }
 
@@ -258,11 +257,7 @@ static Vec3 shortVec(const Vec3& v) {
   const Real most = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(most > 0) || !std::isfinite(most)) return v;
   const Real step = math::pow(10, std::floor(math::log(most) / math::log(10.0)) - 2);
-  const auto near = [&](Real x) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.12g", std::round(x / step) * step);
-    return std::strtod(text, nullptr);
-  };
+  const auto near = [&](Real x) { return toTwelveDigits(std::round(x / step) * step); };
   return {near(v.x), near(v.y), near(v.z)};
 }
 static Color shortColor(const Color& c) {

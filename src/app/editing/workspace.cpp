@@ -345,11 +345,12 @@ void Workspace::saveBy(const std::string& file, std::function<void(const Advance
     *stopped = false;
     const auto outcome = outcomeOf(file, [&] {
       checkIsNoInput(file, inputs);
+      bool givenUp = false;  // what was whole before somebody said so is written
       write([&](double part) {
         *share = part;
-        return !*stopped;
+        return !(givenUp = *stopped);
       });
-      return *stopped ? Saved{.files = {}, .stopped = file} : Saved{{file}};
+      return givenUp ? Saved{.files = {}, .stopped = file} : Saved{{file}};
     });
     *share = 0;
     return outcome;
