@@ -349,8 +349,9 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                       });
     instance.solid = instance.mesh ? !world.nestedGlass_ || instance.opaque || closed(instance.mesh->data())
                                    : shape.solid();
+    const Box3 placed = box.unbounded() ? box : instance.placement.outFromIn() * box;
     inRange = inRange && isInRange(box) && isInRange(materials[object.material]) &&
-              (box.unbounded() || isInRange(instance.placement.outFromIn() * box));
+              (box.unbounded() || isInRange(placed));
     if (!inRange) leftOut.add(object.place);  // stays as well
     const bool isThere = inRange && !flat;
     const auto number = static_cast<std::uint32_t>(world.objects_.size());
@@ -360,8 +361,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
                           (instance.mesh ? closed(instance.mesh->data()) : shape.solid());
     const bool cloud = fills && encloses && material.opacity == 0 &&
                        std::all_of(used.begin(), used.end(), [&](auto m) { return m == object.material; });
-    if (fills && encloses)
-      world.media_.push_back({number, cloud, MediumModel(material), instance.placement.outFromIn() * box});
+    if (fills && encloses) world.media_.push_back({number, cloud, MediumModel(material), placed});
     if (inGroup && box.unbounded())
       throw Error(Fault::scene, object.place, "an object without an end cannot be in a group that is placed");
     instance.holds = encloses && !cloud;
@@ -372,7 +372,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
       if (box.unbounded())
         world.always_.push_back(static_cast<std::uint32_t>(world.objects_.size()));
       else
-        instance.bounds = instance.placement.outFromIn() * box;
+        instance.bounds = placed;
     }
     if (!inGroup) {
       boxes.push_back(instance.bounds);

@@ -383,14 +383,15 @@ bool World::crossUse(std::uint32_t use, const std::vector<Uses>& uses, std::uint
 
 SurfacePoint World::placedSurface(const Ray& ray, const Found& found) const {
   const Located at = locate(found.object);
-  Placement placements[kMostGroupLevels];
+  Affine inward[kMostGroupLevels];
   Ray inside = ray;
   for (int level = 0; level < at.levels; ++level) {
-    placements[level] = Placement(*at.steps[level]);
-    inside = placements[level].into(inside);
+    inward[level] = inverse(*at.steps[level]);
+    inside = {inward[level] * inside.origin, linear(inward[level], inside.direction)};
   }
   SurfacePoint point = surfaceOn(at.object, inside, found);
-  for (int level = at.levels; level-- > 0;) point = placements[level].outOf(point);
+  for (int level = at.levels; level-- > 0;)
+    point = outOf(point, WayOut(*at.steps[level], inward[level]), inward[level]);
   return point;
 }
 

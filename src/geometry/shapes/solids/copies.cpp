@@ -210,7 +210,7 @@ SurfacePoint TracedCopies::surface(const Ray& ray, const Crossing& crossing) con
     }
   }
   const Real e = gammaError(16);
-  SurfacePoint s = Placement(outFromIn, inFromOut).outOf({p, {e, e, e}, n, n, {}});
+  SurfacePoint s = outOf({p, {e, e, e}, n, n, {}}, WayOut(outFromIn, inFromOut), inFromOut);
   s.error += Vec3{1, 1, 1} * error_;
   const Vec3 size = bounds_.size();
   const auto share = [&](int axis) {
