@@ -6,14 +6,37 @@
 #pragma once
 
 #include <exception>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace trace {
 
+/// The name of a file, shared by all that stands in it: a scene may have a million objects.
+class FileName {
+ public:
+  FileName() = default;
+  FileName(std::string name)  // NOLINT(google-explicit-constructor)
+      : name_(name.empty() ? nullptr : std::make_shared<const std::string>(std::move(name))) {}
+  FileName(const char* name) : FileName(std::string(name)) {}  // NOLINT(google-explicit-constructor)
+
+  const std::string& str() const {
+    static const std::string kNone;
+    return name_ ? *name_ : kNone;
+  }
+  operator const std::string&() const { return str(); }  // NOLINT(google-explicit-constructor)
+  bool empty() const { return !name_; }
+  bool operator==(const FileName& other) const { return name_ == other.name_ || str() == other.str(); }
+  bool operator<(const FileName& other) const { return str() < other.str(); }
+
+ private:
+  std::shared_ptr<const std::string> name_;  ///< null: ""
+};
+
 /// A place in a file the user wrote. `line` and `column` count from 1; 0 means the file as a whole.
 struct SourcePlace {
-  std::string file{};
+  FileName file{};
   int line = 0;
   int column = 0;
   std::string text{};  ///< that line of the file, for the caret; may be empty

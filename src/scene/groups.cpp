@@ -154,8 +154,8 @@ std::string placementName(const Scene& scene, const NumberedObject& object) {
     text += (text.empty() ? "" : ", ") + (group.name.empty() ? std::string("group") : group.name) + " #" +
             std::to_string(step.index + 1);
     if (place.line > 0)
-      text +=
-          " (" + place.file.substr(place.file.find_last_of('/') + 1) + ":" + std::to_string(place.line) + ")";
+      text += " (" + place.file.str().substr(place.file.str().find_last_of('/') + 1) + ":" +
+              std::to_string(place.line) + ")";
   }
   return text;
 }

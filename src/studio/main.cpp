@@ -59,7 +59,7 @@ void showError(Studio& studio) {
   });
   if (error == log.rend()) return;
   const SourcePlace& place = error->place;
-  std::string where = std::filesystem::path(place.file).filename().generic_string();
+  std::string where = std::filesystem::path(place.file.str()).filename().generic_string();
   if (place.line > 0) where += ":" + std::to_string(place.line) + ":" + std::to_string(place.column);
   studio.banner.text = (where.empty() ? "" : where + ": ") + error->text;
   const Document& document = studio.workspace.document;

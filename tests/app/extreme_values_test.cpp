@@ -75,7 +75,7 @@ class ExtremeValues : public testing::Test {
       } catch (const Error& error) {
         EXPECT_NE(error.fault(), Fault::limit) << error.what();
         for (const Message& m : error.messages())
-          EXPECT_TRUE(m.place.line > 0 && m.place.column > 0 && m.place.file.ends_with("a.ray"))
+          EXPECT_TRUE(m.place.line > 0 && m.place.column > 0 && m.place.file.str().ends_with("a.ray"))
               << toString(m);
       }
       if (HasFailure()) return;

@@ -116,6 +116,16 @@ TEST(RayFormat, ReadsEveryFieldOfEveryShape) {
     }
 }
 
+TEST(RayFormat, ManyObjectsKnowTheirPlacesWithoutTheTextOfTheirLines) {
+  constexpr std::size_t kMany = 10000;
+  std::string text;
+  for (std::size_t i = 0; i <= kMany; ++i) text += "  sphere { }\n";
+  const Scene scene = load(text).scene;
+  ASSERT_EQ(scene.objects.size(), kMany + 1);
+  EXPECT_EQ(scene.objects[1].place, (SourcePlace{"test.ray", 3, 3, "  sphere { }"}));
+  EXPECT_EQ(scene.objects[kMany].place, (SourcePlace{"test.ray", static_cast<int>(kMany) + 2, 3, ""}));
+}
+
 TEST(RayFormat, ReadsSolidsOfSolids) {
   const char* text =
       "difference { material = { diffuse = (1, 0, 0) }\n box { }\n { sphere { } translate(1, 0, 0, sphere { "

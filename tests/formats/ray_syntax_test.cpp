@@ -165,6 +165,8 @@ TEST(RaySyntax, KnowsPlacesAndSourceText) {
   EXPECT_EQ(syntax.place(source.size()).line, 3);
   EXPECT_EQ(syntax.shortPlace(b), syntax.place(b));
   EXPECT_EQ(syntax.shortPlace(source.size() - 1), (SourcePlace{"test.ray", 3, 301, ""}));
+  EXPECT_EQ(syntax.numberedPlace(b),
+            (SourcePlace{"test.ray", syntax.place(b).line, syntax.place(b).column, ""}));
   auto item = syntax.root().begin();
   EXPECT_EQ((*item).source(), "a = 1");
   EXPECT_EQ((*++item).source(), "b { c }");

@@ -22,7 +22,7 @@ std::filesystem::file_time_type timeOf(const std::string& file) {
 }
 
 std::string briefPlace(const SourcePlace& place) {
-  std::string text = std::filesystem::path(place.file).filename().generic_string();
+  std::string text = std::filesystem::path(place.file.str()).filename().generic_string();
   if (place.line > 0) text += ":" + std::to_string(place.line);
   return text;
 }

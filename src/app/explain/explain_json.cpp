@@ -23,7 +23,7 @@ Json toJson(const EnumValue& value) { return value.name(); }
 
 Json toJson(const SourcePlace& place) {
   if (place.file.empty()) return nullptr;
-  return {{"file", place.file}, {"line", place.line}, {"column", place.column}};
+  return {{"file", place.file.str()}, {"line", place.line}, {"column", place.column}};
 }
 
 Json toJson(const ColorRamp& ramp) {

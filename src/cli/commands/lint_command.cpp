@@ -35,7 +35,7 @@ std::string lintJson(const std::string& scene, std::span<const LintFinding> find
   for (const LintFinding& finding : findings) {
     const SourcePlace& place = finding.message.place;
     json["findings"].add({{"check", finding.check},
-                          {"file", place.file},
+                          {"file", place.file.str()},
                           {"line", place.line},
                           {"column", place.column},
                           {"what", finding.message.what},

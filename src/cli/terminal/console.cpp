@@ -25,7 +25,7 @@ std::string colored(const Message& message) {
   const bool error = message.severity == Message::Severity::error;
   const std::string word = error ? "error:" : "warning:";
   // The name of the file, which comes first, may hold that word as well.
-  const size_t at = text.find(word, printable(message.place.file).size());
+  const size_t at = text.find(word, printable(message.place.file.str()).size());
   if (at == std::string::npos) return text;
   text.insert(at + word.size(), "\033[0m");
   text.insert(at, error ? "\033[1;31m" : "\033[1;33m");

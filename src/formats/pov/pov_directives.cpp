@@ -60,8 +60,8 @@ void Reader::fail(const Token& at, const std::string& what, const std::string& h
     if (outer.at == 0) continue;
     const SourcePlace from = place(outer.source->tokens[outer.at - 1]);
     chain += (chain.empty() ? "" : ", ") +
-             std::string(frames_[i].macro ? "in a macro called at " : "included at ") + from.file + ":" +
-             std::to_string(from.line);
+             std::string(frames_[i].macro ? "in a macro called at " : "included at ") + from.file.str() +
+             ":" + std::to_string(from.line);
     ++shown;
   }
   throw Error(Fault::scene, place(at), what + (chain.empty() ? "" : " (" + chain + ")"), hint);

@@ -60,7 +60,7 @@ Color Bidirectional::radiance(Tracer& tracer, Sampler sampler, const CameraRay& 
   walkFromLight(tracer, sampler.branch(Branch::lightPath), sample);
   if (sample.ways.camera == 1) return Gather(tracer, 0).radiance();
   Path path{{camera, sampler}};
-  if (lands_) path.partial.vcm = Partial::power(1 / camera_.density(camera.ray));
+  if (lands_) path.partial.vcm = PartialSums::power(1 / camera_.density(camera.ray));
   return along(tracer, path, camera.hit, sample);
 }
 
@@ -94,9 +94,9 @@ std::optional<Color> Bidirectional::arrive(Tracer& tracer, Path& path, const std
   Gather& sum = turn.sum;
   /// s = 0: the emitter there was hit with the densities of being asked for and of having started there.
   const auto met = [&](Term::Kind kind, const Color& light, Real asked, Real started) {
-    const Partial& p = path.partial;
+    const auto& [vcm, vc] = path.partial;
     const Real others =
-        path.kind == RayKind::camera ? 0 : Partial::power(asked) * p.vcm + Partial::power(started) * p.vc;
+        path.kind == RayKind::camera ? 0 : PartialSums::power(asked) * vcm + PartialSums::power(started) * vc;
     const Real counts = share(0, t, others, sample);
     sum.addWay(kind, Color(counts), light, ConnectionTerm{0, t, counts});
   };

@@ -1,8 +1,7 @@
 // Bidirectional path tracing (Lafortune and Willems 1993; Veach 1997, chapter 10): a path from the camera and
 // one from a light, of which every place is joined with every other.
 //
-//   L = sum over s and t of w(s, t) * (s places from the light's end, t from the camera's, and the way
-//   between)
+//   L = sum over s and t of w(s, t) * (s places of the light's path, t of the camera's, the way between)
 //
 //   s = 0    the path from the camera hit something that shines
 //   s = 1    a place of it samples lights and lamps, as a path tracer does
@@ -55,7 +54,6 @@ class Bidirectional : public Integrator {
 
  private:
   // integrators/bdpt_paths.h
-  using Partial = PartialSums;
   struct Carried;
   struct Counts;
   struct Path;

@@ -79,7 +79,7 @@ void Bidirectional::askLamps(Gather& sum, const PathPlace& at, const Path& path,
     const Real others =
         alone
             ? 0
-            : Partial::power(at.density(at.from(), toLight) / place.density) +
+            : PartialSums::power(at.density(at.from(), toLight) / place.density) +
                   path.partial.others(starts ? starts_.overAsked(place, at.point()) * at.cosine(toLight) : 0,
                                       at.density(toLight, at.from()));
     const ConnectionTerm term{1, path.t(), share(1, path.t(), others, sample)};

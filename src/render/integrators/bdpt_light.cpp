@@ -63,7 +63,7 @@ void Bidirectional::walkFromLight(Tracer& tracer, const Sampler& sampler, Sample
       f.weight = arrival->power * f.through;
       f.through *= passes;
       if (f.open) {
-        f.partial = {Partial::power(arrival->asked), Partial::power(arrival->met)};
+        f.partial = {PartialSums::power(arrival->asked), PartialSums::power(arrival->met)};
         f.last = where ? Last::medium : Last::lobe;
       }
     }

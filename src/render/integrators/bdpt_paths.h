@@ -28,7 +28,7 @@ struct Bidirectional::Counts {
 /// State that a path from a light shares with its vertices.
 struct Bidirectional::Carried {
   Color response{1};  ///< response of the wavelength, if the path was split: not in the power
-  Partial partial{};
+  PartialSums partial{};
   Counts counts{};  ///< weights of the vertices up to and with the last one
   Last last = Last::lobe;
 };
@@ -36,7 +36,7 @@ struct Bidirectional::Carried {
 /// Where a path from the camera is.
 struct Bidirectional::Path : Leg {
   Counts counts{};  ///< weights of the vertices before
-  Partial partial{};
+  PartialSums partial{};
   bool fromMedium = false;  ///< it was scattered in a medium last
   bool fromLights = false;  ///< paths from lights bring what mirrors and glass show it
 

@@ -172,7 +172,7 @@ std::optional<std::uint32_t> lightOf(const RayTree& tree, int node) {
 }
 
 std::string shortPlace(const SourcePlace& place) {
-  std::string text = place.file.substr(place.file.find_last_of('/') + 1);
+  std::string text = place.file.str().substr(place.file.str().find_last_of('/') + 1);
   if (place.line > 0) text += ":" + std::to_string(place.line);
   return text;
 }

@@ -88,7 +88,7 @@ void heading(Studio& studio, const std::string& name, std::string_view help, con
   ImGui::TextColored(studio.palette().accent, "%s", name.c_str());
   if (place.line > 0) {
     ImGui::SameLine();
-    ImGui::TextDisabled("%s:%d", std::filesystem::path(place.file).filename().generic_string().c_str(),
+    ImGui::TextDisabled("%s:%d", std::filesystem::path(place.file.str()).filename().generic_string().c_str(),
                         place.line);
   }
   ImGui::PushTextWrapPos();

@@ -209,7 +209,7 @@ struct GltfLooks::Reader {
     if (!image.uri.empty()) return {fileOf(image), nullptr, place};
     const auto [found, fresh] = inFile.try_emplace(number);
     if (fresh)
-      found->second = inside.decode(std::filesystem::path(place.file).filename().generic_string() +
+      found->second = inside.decode(std::filesystem::path(place.file.str()).filename().generic_string() +
                                         "#images[" + std::to_string(number) + "]",
                                     {image.name, std::string(bytesOf(image))}, place);
     return found->second;

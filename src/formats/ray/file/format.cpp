@@ -35,8 +35,9 @@ namespace trace {
 namespace rayfile {
 
 void settle(Syntax& syntax, SceneTime& time, InputFiles& inputs) {
-  expand(syntax, time, inputs, !syntax.hasKeys() && !speaksStudents(syntax));
-  translateStudents(syntax);
+  const bool theirs = syntax.hasKeys() || speaksStudents(syntax);
+  expand(syntax, time, inputs, !theirs);
+  if (theirs || syntax.usesLanguage()) translateStudents(syntax);
   try {
     settleKeys(syntax, time);
   } catch (const Error&) {

@@ -38,7 +38,7 @@ class PlainText {
   /// Which line made it.
   void comment(const Item& item) {
     const SourcePlace place = syntax_.place(item.offset());
-    out_ += "\n// " + place.file + ":" + std::to_string(place.line);
+    out_ += "\n// " + place.file.str() + ":" + std::to_string(place.line);
     if (const std::string chain = item.chain(); !chain.empty()) out_ += ", " + chain;
     out_ += "\n";
   }

@@ -354,7 +354,9 @@ void ObjectReader::add(const Item& call, Object object) {
   if (!invertible(object.worldFromObject))
     return findings_.warn(call,
                           "an object is left out: its transform makes it flat, or infinitely large or small");
-  object.place = syntax_.shortPlace(call.offset());
+  constexpr std::size_t kMany = 10000;  // messages about more than these do without the line's text
+  object.place = scene_.objects.size() < kMany ? syntax_.shortPlace(call.offset())
+                                               : syntax_.numberedPlace(call.offset());
   scene_.objects.push_back(std::move(object));
 }
 

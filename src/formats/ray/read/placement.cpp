@@ -148,6 +148,7 @@ void addTransformWords(std::vector<std::string_view>& words) {
 std::optional<Item> applyTransform(Findings& findings, const Item& call, Affine& worldFromObject) {
   const TransformForm& transform = *findTransform(call);
   std::vector<Item> items;
+  items.reserve(5);  // most have fewer, and a scene may have a million
   if (call.value().is(Kind::tuple))
     for (const Item item : call.value()) items.push_back(item);
   const bool hasChild = !items.empty() && !items.back().is(Kind::number) && !items.back().is(Kind::tuple);

@@ -129,7 +129,8 @@ class Parser {
   bool atEnd() const { return at_ >= source_.size(); }
 
   void blanks() {
-    if (!isBlank(peek()) && peek() != '/') return;
+    while (isBlank(peek())) ++at_;
+    if (peek() != '/') return;
     bool unclosed = false;
     at_ = skipBlanks(source_, at_, unclosed);
     if (unclosed) fail(at_, "expected \"*/\", found the end of the file", "this comment is never closed");
@@ -386,7 +387,7 @@ class Parser {
     return atWord("not");
   }
   bool atWord(std::string_view word) const {
-    if (!source_.substr(at_).starts_with(word)) return false;
+    if (peek() != word.front() || !source_.substr(at_).starts_with(word)) return false;
     const std::size_t end = at_ + word.size();
     return end == source_.size() || !isWordPart(source_[end]);
   }
@@ -579,8 +580,8 @@ class Parser {
   void call(std::uint32_t word) {
     const std::string_view name = Item(syntax_, word).text();
     parsed_.hasKeys |= name == Syntax::kKey;
-    parsed_.usesLanguage |= peek() == '(' && isFunction(name);
     const std::size_t arity = peek() == '(' ? arityOf(name) : 0;
+    parsed_.usesLanguage |= peek() == '(' && arity == 0 && isFunction(name);
     openAround(word, Kind::call);
     brackets();
     close(word);

@@ -9,16 +9,11 @@
 #include "formats/words.h"
 
 namespace trace::rayfile {
-namespace {
-
-constexpr std::size_t kNone = std::string_view::npos;
-
-}  // namespace
 
 std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 Syntax::Syntax(std::string file, std::string_view source) {
-  sources_.emplace_back().file = std::move(file);
+  sources_.emplace_back().name = std::move(file);
   sources_.back().text = source;
   nodes_.reserve(source.size() / 4);  // more than most files need; what is not used takes no memory
   parse(sources_.back());
@@ -28,7 +23,7 @@ std::uint32_t Syntax::include(std::string file, std::string source) {
   const Source& last = sources_.back();
   const auto base = static_cast<std::uint32_t>(last.base + last.text.size() + 1);
   Source& added = sources_.emplace_back();
-  added.file = std::move(file);
+  added.name = std::move(file);
   added.owned = std::move(source);
   added.text = added.owned;
   added.base = base;
@@ -39,9 +34,9 @@ std::uint32_t Syntax::include(std::string file, std::string source) {
 
 void Syntax::parse(Source& source) {
   if (source.base + source.text.size() >= std::numeric_limits<std::uint32_t>::max())
-    throw Error(Fault::limit, SourcePlace{source.file, 0, 0, {}},
+    throw Error(Fault::limit, SourcePlace{source.name, 0, 0, {}},
                 "expected a scene of less than 4 GiB of text");
-  for (std::size_t newline = source.text.find('\n'); newline != kNone;
+  for (std::size_t newline = source.text.find('\n'); newline != std::string_view::npos;
        newline = source.text.find('\n', newline + 1))
     source.lineStarts.push_back(static_cast<std::uint32_t>(newline + 1));
   const Parsed parsed = parseRay(*this, source.text, source.base, nodes_);
@@ -108,7 +103,7 @@ void Syntax::throwMistakes() const {
   throw Error(Fault::scene, std::move(messages));
 }
 
-SourcePlace Syntax::place(std::size_t offset) const { return place(offset, kNone); }
+SourcePlace Syntax::place(std::size_t offset) const { return place(offset, std::string_view::npos); }
 
 SourcePlace Syntax::shortPlace(std::size_t offset) const {
   constexpr std::size_t kLongLine = 200;
@@ -120,7 +115,7 @@ SourcePlace Syntax::place(std::size_t offset, std::size_t longestLine) const {
   const std::size_t at = offset - source.base;
   const Line on = line(source, at);
   const bool isLong = on.end - on.start > longestLine;
-  return {source.file, static_cast<int>(on.number), static_cast<int>(at - on.start) + 1,
+  return {source.name, static_cast<int>(on.number), static_cast<int>(at - on.start) + 1,
           std::string(isLong ? std::string_view() : source.text.substr(on.start, on.end - on.start))};
 }
 
@@ -139,21 +134,9 @@ std::string Syntax::chain(std::uint32_t node) const {
   return text;
 }
 
-std::string_view Item::text() const {
-  std::string_view text = source();
-  if (node().quoted) text = text.substr(1, text.size() - 2);
-  return text;
-}
-
-std::size_t Item::count() const {
-  std::size_t n = 0;
-  for (Iterator child = begin(); child != end(); ++child) ++n;
-  return n;
-}
-
 std::string describe(const Item& item) {
   const std::string_view text = item.source();
-  if (text.size() <= 40 && text.find('\n') == kNone)
+  if (text.size() <= 40 && text.find('\n') == std::string_view::npos)
     return item.is(Kind::word) ? quoted(item.text()) : std::string(text);
   switch (item.kind()) {
     case Kind::number: return "a number of " + std::to_string(text.size()) + " characters";

@@ -148,7 +148,7 @@ class Syntax {
     return static_cast<double>(spelled_.size());
   }
   const std::string& spelled(double number) const { return spelled_[static_cast<std::size_t>(number) - 1]; }
-  const std::string& file() const { return sources_.front().file; }
+  const std::string& file() const { return sources_.front().name.str(); }
 
   /// Nodes that one call of a definition or one round of a loop made.
   struct Frame {
@@ -193,12 +193,15 @@ class Syntax {
   }
   /// Without the text of a long line, to be kept in numbers.
   SourcePlace shortPlace(std::size_t offset) const;
+  /// Without any text, to be kept by the million.
+  SourcePlace numberedPlace(std::size_t offset) const { return place(offset, 0); }
 
  private:
   friend class Parser;
   /// A file; its bytes have the offsets from `base` on.
   struct Source {
-    std::string file, owned;
+    FileName name;
+    std::string owned;
     std::string_view text;
     std::uint32_t base = 0;
     std::vector<std::uint32_t> lineStarts{0};  ///< from the file's own start
@@ -252,7 +255,10 @@ class Item {
   /// The calls and rounds of loops that made it (Syntax::chain).
   std::string chain() const { return syntax_->chain(index_); }
   /// A word without its quotes.
-  std::string_view text() const;
+  std::string_view text() const {
+    const std::string_view text = source();
+    return node().quoted ? text.substr(1, text.size() - 2) : text;
+  }
 
   /// Is it an entry, or a call with a block or tuple?
   bool keyed() const { return is(Kind::entry) || is(Kind::call); }
@@ -277,7 +283,11 @@ class Item {
   Iterator begin() const { return {*syntax_, index_ + 1}; }
   Iterator end() const { return {*syntax_, node().end}; }
   /// How many children it has. Linear in them.
-  std::size_t count() const;
+  std::size_t count() const {
+    std::size_t n = 0;
+    for (Iterator child = begin(); child != end(); ++child) ++n;
+    return n;
+  }
 
  private:
   const Node& node() const { return syntax_->nodes()[index_]; }

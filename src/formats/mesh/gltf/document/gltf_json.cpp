@@ -122,7 +122,7 @@ std::size_t tooDeep(std::string_view text) {
 nlohmann::json parseGltfJson(const SourcePlace& place, std::string_view bytes, std::string_view text) {
   const auto fail = [&](std::size_t offset, std::string what, std::string hint = {}) {
     const bool isText = text.data() == bytes.data();  // lines of a binary file tell a person nothing
-    throw Error(Fault::scene, isText ? placeAt(place.file, text, offset) : place, std::move(what),
+    throw Error(Fault::scene, isText ? placeAt(place.file.str(), text, offset) : place, std::move(what),
                 std::move(hint));
   };
   if (const std::size_t deep = tooDeep(text); deep != text.npos)
