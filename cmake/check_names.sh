@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# Checks names: every file and folder that ARCHITECTURE.md names is there; and functions that are local to a file are called
+# Checks names: every file and folder that the pages on the source name is there; and functions that are local to a file are called
 # differently in every file of a folder, for these are compiled together (together.cmake), where one might take the other's calls.
 # Usage: check_names.sh [checkout]
 set -euo pipefail
 
 cd -- "${1:-"$(dirname -- "${BASH_SOURCE[0]}")/.."}"
+pages=(ARCHITECTURE.md docs/developers/principles.md docs/developers/adding.md)
 wrong=0 names=0
 while read -r name; do
   [[ $name == ../shared* ]] && continue  # which a checkout may lack
   names=$((names + 1))
-  [[ -e "$name" || -e "src/$name" ]] || { echo "ARCHITECTURE.md: there is no $name"; wrong=$((wrong + 1)); }
-done < <(grep -oE '`[a-z_.]+(/[a-z_]+)*/[a-z_]*(\.(h|cpp|sh))?`|docs/[a-z/-]+\.md' ARCHITECTURE.md | tr -d '`' | sort -u)
+  [[ -e "$name" || -e "src/$name" ]] || { echo "${pages[*]}: there is no $name"; wrong=$((wrong + 1)); }
+done < <(grep -ohE '`[a-z_.]+(/[a-z_]+)*/[a-z_]*(\.(h|cpp|sh))?`|docs/[a-z/-]+\.md' "${pages[@]}" | tr -d '`' | sort -u)
 
 mapfile -t files < <(find src -name '*.cpp' ! -name '*_avx*' ! -path 'src/render/integrators/*' | sort)
 locals="$(awk '
