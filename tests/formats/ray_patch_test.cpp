@@ -130,6 +130,31 @@ TEST(RayPatch, SettingsAreChangedOrAdded) {
             "settings { like = uw2001; width = 7; } sphere { }");
 }
 
+TEST(RayPatch, ANewObjectSaysOnlyWhatIsNotSoByDefault) {
+  const auto with = [](const Cone& cone) {
+    return after("sphere { }\n", [&](Scene& s) {
+      s.objects.push_back({"", cone, {}, s.objects[0].material, {}});
+    });
+  };
+  EXPECT_EQ(with({}), "sphere { }\n\ncone {\n  material = { };\n}\n");
+  EXPECT_EQ(with({.height = 2}), "sphere { }\n\ncone {\n  height = 2;\n  material = { };\n}\n");
+}
+
+TEST(RayPatch, WhatIsAddedStandsBehindTheCommentAtTheHead) {
+  const Edit depth = [](Scene& s) { s.choices.push_back({"depth", "9", {}}); };
+  EXPECT_EQ(after("// A ball,\n// by me\n\nsphere { }\n", depth),
+            "// A ball,\n// by me\n\nsettings { depth = 9; }\nsphere { }\n");
+  EXPECT_EQ(after("\n// A ball\n\n\n// red\nsphere { }\n", depth),
+            "\n// A ball\n\nsettings { depth = 9; }\n\n// red\nsphere { }\n");
+  EXPECT_EQ(after("// the ball's own comment\nsphere { }\n", depth),
+            "settings { depth = 9; }\n// the ball's own comment\nsphere { }\n");
+  EXPECT_EQ(after("sphere { }\n\n// the end\n\n", depth),
+            "settings { depth = 9; }\nsphere { }\n\n// the end\n\n");
+  const SceneText dos = reading("test.ray", "SBT-raytracer 1.0\r\n// A ball\r\n\r\nsphere { }\r\n");
+  EXPECT_EQ(edited(dos, depth).text,
+            "SBT-raytracer 1.0\r\n// A ball\r\n\r\nsettings { depth = 9; }\r\nsphere { }\r\n");
+}
+
 TEST(RayPatch, FilesOfSettingsAreWrittenSoThatTheyAreFound) {
   const std::string sky =
       std::filesystem::absolute("/sky/a b.hdr").generic_string();  // with the drive, on Windows

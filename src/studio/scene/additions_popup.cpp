@@ -105,6 +105,12 @@ void shineOnMiddle(const Studio& studio, Light& light) {
   aimLight(light, target + away * (found && found->t < 1 ? kBefore * found->t : 1), target);
 }
 
+/// Shaded from the sides that the scene's others are: from both in files of the kind `Trace 1`.
+void addMaterial(Scene& scene, Material material) {
+  if (!scene.materials.empty()) material.sides = scene.materials.front().sides;
+  scene.materials.push_back(std::move(material));
+}
+
 /// The scene's material of that name, or the library's, which the scene gets.
 std::size_t materialCalled(Scene& scene, const std::string& name) {
   const auto found = std::find_if(scene.materials.begin(), scene.materials.end(),
@@ -113,7 +119,7 @@ std::size_t materialCalled(Scene& scene, const std::string& name) {
   if (found != scene.materials.end()) return index;
   Material material = libraryMaterial(name).value_or(newMaterial());
   material.name = name;
-  scene.materials.push_back(std::move(material));
+  addMaterial(scene, std::move(material));
   return index;
 }
 
@@ -168,7 +174,7 @@ void add(Studio& studio, const Addition& addition) {
   std::size_t index = 0;
   switch (addition.kind) {
     case Addition::Kind::shape: {
-      scene.materials.push_back(newMaterial());  // its own: others keep their colours
+      addMaterial(scene, newMaterial());  // its own: others keep their colours
       const auto own = static_cast<std::uint32_t>(scene.materials.size() - 1);
       Shape shape(rowCalled<ShapeType>(name));
       constexpr int kDigits = 5;

@@ -155,13 +155,29 @@ void TextEdits::erase(const Item& item) {
   replace(begin, end, "");
 }
 
+std::optional<std::size_t> TextEdits::endOfHead(std::size_t line) const {
+  bool hasComment = false;
+  for (std::size_t newline = source_.find('\n', line); newline != source_.npos;
+       newline = source_.find('\n', newline + 1)) {
+    const std::size_t begin = newline + 1, end = lineEnd(begin);
+    if (isBlank(begin, end) && hasComment) return std::min(source_.find('\n', begin), source_.size() - 1) + 1;
+    const std::string_view text = source_.substr(begin, end - begin);
+    if (isBlank(begin, end)) continue;
+    if (!text.substr(text.find_first_not_of(" \t")).starts_with("//")) return {};
+    hasComment = true;
+  }
+  return {};
+}
+
 void TextEdits::addOnTop(std::string line) {
   auto item = syntax_.root().begin();
   const std::size_t version = endOf(*++item), end = lineEnd(version);
   const std::string_view rest = source_.substr(version, end - version);
   const std::size_t comment = rest.find_first_not_of(" \t\r;,");
   const bool alone = comment == rest.npos || rest.substr(comment).starts_with("//");
-  if (alone)
+  if (const std::optional<std::size_t> head = alone ? endOfHead(end) : std::nullopt)
+    insert(*head, line + "\n");
+  else if (alone)
     insert(end, "\n" + line);
   else
     insert(version, "\n" + line + "\n");

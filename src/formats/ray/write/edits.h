@@ -41,7 +41,7 @@ class TextEdits {
   void addField(const Item& block, const std::string& field);
   /// Takes out the item and its separator, and the line if nothing else stands there.
   void erase(const Item& item);
-  /// A line of its own after the first words of the file.
+  /// A line of its own after the first words of the file, and after the comment that stands at its head.
   void addOnTop(std::string line);
   /// At the end of the file.
   void append(std::string text) { appended_ += std::move(text); }
@@ -68,6 +68,8 @@ class TextEdits {
   bool isBlank(std::size_t begin, std::size_t end) const;
   std::size_t lineStart(std::size_t at) const;
   std::size_t lineEnd(std::size_t at) const;  ///< before its line break
+  /// Behind the blank line that ends the comment lines behind the line that ends there; nothing without one.
+  std::optional<std::size_t> endOfHead(std::size_t line) const;
   std::vector<Edit> edits() const;
   Edit addition(const Item& block, const std::vector<std::string>& fields) const;
   std::string tail() const;

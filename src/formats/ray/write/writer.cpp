@@ -44,7 +44,7 @@ class Writer {
   }
   /// For one object of the scene.
   Writer(const Scene& scene, const Object& object, MaterialText text)
-      : scene_(scene), digits_(0), materialText_(std::move(text)) {
+      : scene_(scene), digits_(0), isShort_(true), materialText_(std::move(text)) {
     count(object.shape, object.material);
   }
 
@@ -304,7 +304,7 @@ class Writer {
     } else {
       out_ += std::string(object.shape.keyword()) + " {\n";
       writeNames(object);
-      forEachField(object.shape, [&](const AnyField& f, const auto& value) { field(f.keyword, value); });
+      writeFields(object.shape);
       writeOwnMaterial(object);
     }
     const bool outside = std::exchange(inWhole_, true);
@@ -318,6 +318,15 @@ class Writer {
     });
     inWhole_ = outside;
     out_ += "}" + std::string(steps.size(), ')') + "\n\n";
+  }
+
+  /// An object that joins a text says only what is not so by default.
+  void writeFields(const Shape& shape) {
+    const Shape usual(shape.type());
+    const std::vector<AnyField> all = shape.fields(), unsaid = usual.fields();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!isShort_ || !sameValue(all[i], unsaid[i]))
+        visitValueOf(all[i], [&](const auto& value) { field(all[i].keyword, value); });
   }
 
   /// Its own, and those of lights.
@@ -398,6 +407,7 @@ class Writer {
 
   const Scene& scene_;
   int digits_;
+  bool isShort_ = false;       ///< fields of shapes that have their usual values are left out
   MaterialText materialText_;  ///< says materials in another way, if there is one
   bool inGroup_ = false;
   std::vector<std::string> groupNames_;
