@@ -258,11 +258,14 @@ bool kindDefaultsFollow(const Scene& scene, const KindGiven& given) {
 }
 
 void addKindDefaults(Scene& scene, const KindGiven& given, const SourcePlace& place, const KindStart* start) {
-  const Box3 seen = start ? start->seen : boundsOfInterest(scene);
+  const std::optional<Vec3>& lookAt = start ? start->given.lookAt : given.lookAt;
+  // Bounds of fur, terrain and fractals take as long as preparing these.
+  const bool asksBounds =
+      !(given.cameraPosition && given.cameraDirection) || (!given.fading.empty() && !lookAt);
+  const Box3 seen = start ? start->seen : asksBounds ? boundsOfInterest(scene) : Box3{};
   addCamera(scene, given, seen);
   fitCamera(scene);
   smoothMeshes(scene);
-  const std::optional<Vec3>& lookAt = start ? start->given.lookAt : given.lookAt;
   const Vec3 target = lookAt ? *lookAt : seen.empty() ? Vec3{} : seen.center();
   letLightsReach(scene, given, target, start ? start->scene.lights : scene.lights);
   if (!givesLight(scene)) {

@@ -70,14 +70,15 @@ std::optional<BodyLamp> BodyLamp::of(const World& world, std::uint32_t object) {
     return {};
   body.fromWorld_ = inverse(body.toWorld_);
 
-  constexpr std::uint32_t kLines = 512;
   std::size_t places = 0;
-  for (std::uint32_t n = 0; n < kLines; ++n)
-    for (int k = 0; k < body.crossings_; ++k)
-      places += body.place(world, sobolPoint(n, 0), sobolPointBeside(n, 0), (k + 0.5) / body.crossings_)
-                    .has_value();
+  std::vector<std::pair<Found, Place>> crossed;
+  for (const Line& line : sampleLines()) {
+    body.crossings(world, body.rayOf(line), crossed);
+    places += std::min(crossed.size(), static_cast<std::size_t>(body.crossings_));
+  }
   // A line crosses only one of the two sides of an open shape.
-  body.area_ = kWholeSphere * body.radius_ * body.radius_ * static_cast<Real>(places) / kLines;
+  body.area_ = kWholeSphere * body.radius_ * body.radius_ * static_cast<Real>(places) /
+               static_cast<Real>(sampleLines().size());
   if (!body.closed_) body.area_ /= 2;
   return body.area_ > 0 ? std::optional(body) : std::nullopt;
 }
@@ -100,17 +101,27 @@ Real BodyLamp::density(const Vec3& from, const Vec3& direction) const {
   return 1 / (shorter * shorter * shorter * volume_ * ballAngle(dot(here, here)));
 }
 
-Ray BodyLamp::lineThrough(const Vec2& direction, const Vec2& disk) const {
+BodyLamp::Line BodyLamp::lineOf(const Vec2& direction, const Vec2& disk) {
   const Vec3 along = sphericalDirection(1 - 2 * direction.x, 2 * kPi * direction.y);
   const Vec3 x = perpendicularTo(along), y = cross(along, x);
   const Vec2 off = toDisk(disk);
-  return {middle_ + (x * off.x + y * off.y - along * 2) * radius_, along};
+  return {x * off.x + y * off.y - along * 2, along};
 }
 
-std::optional<BodyLamp::Place> BodyLamp::place(const World& world, const Vec2& direction, const Vec2& disk,
-                                               Real which) const {
-  const Ray line = lineThrough(direction, disk);
-  std::vector<std::pair<Found, Place>> places;
+const std::vector<BodyLamp::Line>& BodyLamp::sampleLines() {
+  static const std::vector<Line> kLines = [] {
+    constexpr std::uint32_t kCount = 512;
+    std::vector<Line> lines;
+    for (std::uint32_t n = 0; n < kCount; ++n)
+      lines.push_back(lineOf(sobolPoint(n, 0), sobolPointBeside(n, 0)));
+    return lines;
+  }();
+  return kLines;
+}
+
+void BodyLamp::crossings(const World& world, const Ray& line,
+                         std::vector<std::pair<Found, Place>>& places) const {
+  places.clear();
   Statistics statistics;
   world.crossingsOf(object_, line, kInfinity, statistics, [&](const Found& found) {
     const SurfacePoint at = world.surface(line, found);
@@ -118,6 +129,12 @@ std::optional<BodyLamp::Place> BodyLamp::place(const World& world, const Vec2& d
     if (enters || !closed_) places.push_back({found, {at.point, enters ? at.normal : -at.normal}});
     return false;
   });
+}
+
+std::optional<BodyLamp::Place> BodyLamp::place(const World& world, const Vec2& direction, const Vec2& disk,
+                                               Real which) const {
+  std::vector<std::pair<Found, Place>> places;
+  crossings(world, rayOf(lineOf(direction, disk)), places);
   const auto chosen = static_cast<std::size_t>(which * crossings_);
   if (chosen >= places.size()) return {};
   std::nth_element(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(chosen), places.end(),

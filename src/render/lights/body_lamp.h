@@ -5,6 +5,8 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "render/world/world.h"
 
@@ -45,7 +47,16 @@ class BodyLamp {
   std::optional<Found> meets(const World& world, const Ray& ray, Statistics& statistics) const;
 
  private:
-  Ray lineThrough(const Vec2& direction, const Vec2& disk) const;
+  /// A line through the unit ball around the origin.
+  struct Line {
+    Vec3 start, along;
+  };
+  static Line lineOf(const Vec2& direction, const Vec2& disk);
+  /// Lines by which the area of every object is estimated.
+  static const std::vector<Line>& sampleLines();
+  Ray rayOf(const Line& line) const { return {middle_ + line.start * radius_, line.along}; }
+  /// All places where a line enters the object, or crosses an open one.
+  void crossings(const World& world, const Ray& line, std::vector<std::pair<Found, Place>>& places) const;
 
   std::uint32_t object_ = 0;
   Affine fromWorld_, toWorld_;  ///< the space in which the ellipsoid is the ball of radius 1

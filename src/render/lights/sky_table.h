@@ -1,10 +1,10 @@
-// Where the light around the scene comes from: a table of its brightness by direction, by which directions
-// are chosen (Pharr, Jakob and Humphreys, Physically Based Rendering, 3rd edition, 2016, section 14.2.4).
+// Directions by the brightness of the environment (render/world/sky_sums.h).
 #pragma once
 
-#include <vector>
+#include <memory>
 
 #include "render/world/outside.h"
+#include "render/world/sky_sums.h"
 
 namespace trace {
 
@@ -16,19 +16,14 @@ class SkyTable {
   /// nothing to be gained by a choice.
   SkyTable(const Outside& outside, int threads, bool onlyHere = false);
 
-  bool empty() const { return rowSums_.empty(); }
+  bool empty() const { return !sums_; }
   /// A unit direction, chosen by two numbers from 0 up to 1.
   Vec3 choose(const Vec2& u) const;
   /// With which choose() gives the unit direction, per solid angle.
   Real density(const Vec3& direction) const;
 
  private:
-  // Rows are bands of y between two heights, so that all cells cover the same solid angle.
-  static constexpr int kColumns = 1024, kRows = 512;
-  static std::size_t cell(int row, int column) { return static_cast<std::size_t>(row * kColumns + column); }
-
-  std::vector<float> sums_;    ///< in each row, of the cells up to and with this one
-  std::vector<Real> rowSums_;  ///< row sums of the rows up to and with this one
+  std::shared_ptr<const SkySums> sums_;
 };
 
 }  // namespace trace

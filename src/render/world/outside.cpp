@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "image/srgb.h"
 #include "math/elementary.h"
 
 namespace trace {
@@ -50,6 +51,33 @@ bool Outside::isEven() const {
   const std::vector<Color>& colors = background_.gradient;
   return !panorama_ && sky_ == Source::gradient &&
          std::all_of(colors.begin(), colors.end(), [&](const Color& c) { return c == colors.front(); });
+}
+
+Real Outside::unevennessOfGradient() const {
+  if (panorama_ || sky_ != Source::gradient) return kInfinity;
+  Real brightest = 0, sum = 0;
+  for (const Color& color : background_.gradient) brightest = std::max(brightest, luminanceOf(color));
+  for (int row = 0; row < SkySums::kRows; ++row) {
+    const Real y = 1 - 2 * ((row + 0.5) / SkySums::kRows);
+    sum += luminanceOf(background_.gradientAt(elevationOf({std::sqrt(1 - y * y), y, 0})));
+  }
+  sum -= brightest * static_cast<Real>(background_.gradient.size());  // rows in which the colour jumps
+  return sum > 0 && brightest < kInfinity ? brightest * SkySums::kRows / sum : kInfinity;
+}
+
+std::shared_ptr<const SkySums> Outside::skySums(int threads) const {
+  const std::lock_guard lock(skySums_->mutex);
+  if (!skySums_->sums) skySums_->sums = std::make_shared<const SkySums>(*this, threads);
+  return skySums_->sums;
+}
+
+void Outside::shareSkySums(const Outside& other) {
+  const auto mine = background_.faces(), others = other.background_.faces();
+  const bool sameFaces = std::equal(mine.begin(), mine.end(), others.begin(),
+                                    [](const Pixels* a, const Pixels* b) { return a->map == b->map; });
+  if (background_ == other.background_ && sameFaces && environment_ == other.environment_ &&
+      turn_ == other.turn_ && brightness_ == other.brightness_)
+    skySums_ = other.skySums_;
 }
 
 Vec3 Outside::turnedBack(const Vec3& d) const {

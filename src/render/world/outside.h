@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "render/world/ray_kind.h"
+#include "render/world/sky_sums.h"
 #include "scene/scene.h"
 #include "shading/optics/daylight.h"
 
@@ -47,6 +48,13 @@ class Outside {
   }
   /// Rays other than the camera's surely see one colour in all directions.
   bool isEven() const;
+  /// Where they see a gradient alone: an upper bound, to about 1 %, of the luminance of its brightest colour
+  /// over the mean of all directions. Infinite for other sources.
+  Real unevennessOfGradient() const;
+  /// The sums of what they see, made when this is first called.
+  std::shared_ptr<const SkySums> skySums(int threads) const;
+  /// Shares the sums of the other, an earlier environment, if they are equal.
+  void shareSkySums(const Outside& other);
   /// Its direction has length 1.
   View view(const Ray& ray, RayKind kind) const;
 
@@ -66,6 +74,7 @@ class Outside {
   Source sky_ = Source::nothing;  ///< what else is all around: at most one of the rest
   Vec2 turn_{1, 0};               ///< cosine and sine of the rotation
   Real brightness_ = 1;
+  std::shared_ptr<LazySkySums> skySums_ = std::make_shared<LazySkySums>();
 };
 
 /// In words: "environment, face right at (0.25, 0.5)", for a message of a ray that left the scene.

@@ -259,6 +259,7 @@ World compile(const Scene& scene, const Settings& settings, Messages& messages, 
   optics.lens.picture = scene.surroundings.aperture;
   world.camera_ = frame(camera, settings.cameraAxes, optics);
   world.outside_ = Outside(scene, settings, world.camera_);
+  if (before) world.outside_.shareSkySums(before->world.outside_);
 
   const bool bruteForce = settings.accel == Accel::none;
   TreesOfMeshes trees;

@@ -1,6 +1,9 @@
 #include "shading/optics/microfacet.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
+#include <mutex>
 #include <vector>
 
 #include "math/between.h"
@@ -152,46 +155,69 @@ Vec3 seenFrom(int step, int steps, Real along = 1) {
 
 constexpr Real kMostRoughness = 1.8;  // width 3.2, that of strong grain
 
-/// Without grain: by the roots of cosine and width, where the albedo changes evenly.
-struct EvenTable {
-  static constexpr int kWidths = 64, kCosines = 32, kSamples = 20;
-  MicrofacetAlbedo at[kWidths + 1][kCosines + 1];
-  MicrofacetAlbedo mean[kWidths + 1];
+/// A table by width whose rows are computed when they are first needed: few materials need all of it. Any
+/// thread may ask.
+template <class Row>
+class Table {
+ public:
+  explicit Table(Distribution kind) : kind_(kind) {}
+  const Row& operator[](int width) const {
+    const auto i = static_cast<std::size_t>(width);
+    if (!made_[i].load(std::memory_order_acquire)) make(i);
+    return rows_[i];
+  }
 
-  explicit EvenTable(Distribution kind) {
-    for (int w = 0; w <= kWidths; ++w) {
-      const Microfacets facets = Microfacets::of(kind, 1.0 * w / kWidths * kMostRoughness);
-      for (int c = 0; c <= kCosines; ++c) at[w][c] = integrated(facets, seenFrom(c, kCosines), kSamples);
-      mean[w] = meanOf(kCosines, [&](int c) { return at[w][c]; });
-    }
+ private:
+  void make(std::size_t i) const {
+    const std::lock_guard lock(mutex_);
+    if (made_[i].load(std::memory_order_relaxed)) return;
+    rows_[i].fill(kind_, static_cast<int>(i));
+    made_[i].store(true, std::memory_order_release);
+  }
+
+  Distribution kind_;
+  mutable std::mutex mutex_;
+  mutable std::array<std::atomic<bool>, Row::kWidths + 1> made_{};
+  mutable std::array<Row, Row::kWidths + 1> rows_;
+};
+
+/// Without grain: by the roots of cosine and width, where the albedo changes evenly.
+struct EvenRow {
+  static constexpr int kWidths = 64, kCosines = 32, kSamples = 20;
+  MicrofacetAlbedo at[kCosines + 1];
+  MicrofacetAlbedo mean;
+
+  void fill(Distribution kind, int w) {
+    const Microfacets facets = Microfacets::of(kind, 1.0 * w / kWidths * kMostRoughness);
+    for (int c = 0; c <= kCosines; ++c) at[c] = integrated(facets, seenFrom(c, kCosines), kSamples);
+    mean = meanOf(kCosines, [&](int c) { return at[c]; });
   }
 };
 
 /// With grain: by the root of the mean width, the logarithm of how much longer it is along than across, and
 /// whence it is seen.
-struct GrainTable {
+struct GrainRow {
   static constexpr int kWidths = 20, kGrains = 6, kCosines = 16, kAround = 6, kSamples = 16;
   static constexpr Real kMostGrain = 10;  // Microfacets::of() gives no more
-  MicrofacetAlbedo at[kWidths + 1][kGrains + 1][kAround + 1][kCosines + 1];
-  MicrofacetAlbedo mean[kWidths + 1][kGrains + 1];
+  MicrofacetAlbedo at[kGrains + 1][kAround + 1][kCosines + 1];
+  MicrofacetAlbedo mean[kGrains + 1];
 
-  explicit GrainTable(Distribution kind) {
-    for (int w = 0; w <= kWidths; ++w)
-      for (int g = 0; g <= kGrains; ++g) {
-        const Real root = max(0.01, 1.0 * w / kWidths * kMostRoughness);
-        const Real aspect = math::pow(kMostGrain, 0.5 * g / kGrains);
-        const Microfacets facets{kind, root * root * aspect, root * root / aspect};
-        mean[w][g] = {0, 0};
-        for (int a = 0; a <= kAround; ++a) {
-          auto& row = at[w][g][a];
-          const Real along = 1.0 * a / kAround;
-          for (int c = 0; c <= kCosines; ++c)
-            row[c] = integrated(facets, seenFrom(c, kCosines, along), kSamples);
-          const MicrofacetAlbedo there = meanOf(kCosines, [&](int c) { return row[c]; });
-          mean[w][g].white += there.white * shareAround(a);
-          mean[w][g].schlick += there.schlick * shareAround(a);
-        }
+  void fill(Distribution kind, int w) {
+    for (int g = 0; g <= kGrains; ++g) {
+      const Real root = max(0.01, 1.0 * w / kWidths * kMostRoughness);
+      const Real aspect = math::pow(kMostGrain, 0.5 * g / kGrains);
+      const Microfacets facets{kind, root * root * aspect, root * root / aspect};
+      mean[g] = {0, 0};
+      for (int a = 0; a <= kAround; ++a) {
+        auto& row = at[g][a];
+        const Real along = 1.0 * a / kAround;
+        for (int c = 0; c <= kCosines; ++c)
+          row[c] = integrated(facets, seenFrom(c, kCosines, along), kSamples);
+        const MicrofacetAlbedo there = meanOf(kCosines, [&](int c) { return row[c]; });
+        mean[g].white += there.white * shareAround(a);
+        mean[g].schlick += there.schlick * shareAround(a);
       }
+    }
   }
 
   /// How much of a mean over all angles the entry counts, if values between entries are on the line between
@@ -216,13 +242,13 @@ struct GrainTable {
   }
 };
 
-template <class Table>
-const Table& table(Distribution kind) {
+template <class Row>
+const Table<Row>& table(Distribution kind) {
   if (kind == Distribution::ggx) {
-    static const Table kGgx(Distribution::ggx);
+    static const Table<Row> kGgx(Distribution::ggx);
     return kGgx;
   }
-  static const Table kBeckmann(Distribution::beckmann);
+  static const Table<Row> kBeckmann(Distribution::beckmann);
   return kBeckmann;
 }
 
@@ -231,34 +257,35 @@ const Table& table(Distribution kind) {
 MicrofacetAlbedo microfacetAlbedo(const Microfacets& facets, const Vec3& eye) {
   const Real root = std::sqrt(max(0, eye.z));
   if (facets.x == facets.y) {
-    const auto& t = table<EvenTable>(facets.kind);
-    const Between w(std::sqrt(facets.x) / kMostRoughness, t.kWidths), c(root, t.kCosines);
-    const auto row = [&](int i) { return lerp(c.share, t.at[i][c.low], t.at[i][c.low + 1]); };
+    const auto& t = table<EvenRow>(facets.kind);
+    const Between w(std::sqrt(facets.x) / kMostRoughness, EvenRow::kWidths), c(root, EvenRow::kCosines);
+    const auto row = [&](int i) { return lerp(c.share, t[i].at[c.low], t[i].at[c.low + 1]); };
     return lerp(w.share, row(w.low), row(w.low + 1));
   }
-  const auto& t = table<GrainTable>(facets.kind);
+  const auto& t = table<GrainRow>(facets.kind);
   const Real across2 = eye.x * eye.x + eye.y * eye.y;
   const Real along = across2 > 0 ? std::abs(facets.x > facets.y ? eye.x : eye.y) / std::sqrt(across2) : 1;
-  const Between w = t.width(facets), g = t.grain(facets), a(along, t.kAround), c(root, t.kCosines);
+  const Between w = GrainRow::width(facets), g = GrainRow::grain(facets), a(along, GrainRow::kAround),
+                c(root, GrainRow::kCosines);
   const auto by = [](const Between& b, const auto& entry) {
     return lerp(b.share, entry(b.low), entry(b.low + 1));
   };
   return by(w, [&](int i) {
     return by(g, [&](int j) {
-      return by(a, [&](int k) { return by(c, [&](int l) { return t.at[i][j][k][l]; }); });
+      return by(a, [&](int k) { return by(c, [&](int l) { return t[i].at[j][k][l]; }); });
     });
   });
 }
 
 MicrofacetAlbedo meanMicrofacetAlbedo(const Microfacets& facets) {
   if (facets.x == facets.y) {
-    const auto& t = table<EvenTable>(facets.kind);
-    const Between w(std::sqrt(facets.x) / kMostRoughness, t.kWidths);
-    return lerp(w.share, t.mean[w.low], t.mean[w.low + 1]);
+    const auto& t = table<EvenRow>(facets.kind);
+    const Between w(std::sqrt(facets.x) / kMostRoughness, EvenRow::kWidths);
+    return lerp(w.share, t[w.low].mean, t[w.low + 1].mean);
   }
-  const auto& t = table<GrainTable>(facets.kind);
-  const Between w = t.width(facets), g = t.grain(facets);
-  const auto row = [&](int i) { return lerp(g.share, t.mean[i][g.low], t.mean[i][g.low + 1]); };
+  const auto& t = table<GrainRow>(facets.kind);
+  const Between w = GrainRow::width(facets), g = GrainRow::grain(facets);
+  const auto row = [&](int i) { return lerp(g.share, t[i].mean[g.low], t[i].mean[g.low + 1]); };
   return lerp(w.share, row(w.low), row(w.low + 1));
 }
 
@@ -299,23 +326,21 @@ FacetShares lerp(Real t, const FacetShares& a, const FacetShares& b) {
   return mixed;
 }
 
-/// As EvenTable.
-struct ShareTable {
-  static constexpr int kWidths = EvenTable::kWidths, kCosines = EvenTable::kCosines;
-  FacetShares at[kWidths + 1][kCosines + 1];
-  FacetShares mean[kWidths + 1];
+/// As EvenRow.
+struct ShareRow {
+  static constexpr int kWidths = EvenRow::kWidths, kCosines = EvenRow::kCosines;
+  FacetShares at[kCosines + 1];
+  FacetShares mean;
 
-  explicit ShareTable(Distribution kind) {
-    const NodeWeights weights;
-    for (int w = 0; w <= kWidths; ++w) {
-      const Microfacets facets = Microfacets::of(kind, 1.0 * w / kWidths * kMostRoughness);
-      mean[w] = {};
-      for (int c = 0; c <= kCosines; ++c) {
-        at[w][c] = {};
-        forEachMirror(facets, seenFrom(c, kCosines), EvenTable::kSamples,
-                      [&](Real share, Real cosine) { add(at[w][c], weights.at(cosine), share); });
-        add(mean[w], at[w][c], meanWeight(c, kCosines));
-      }
+  void fill(Distribution kind, int w) {
+    static const NodeWeights kWeights;
+    const Microfacets facets = Microfacets::of(kind, 1.0 * w / kWidths * kMostRoughness);
+    mean = {};
+    for (int c = 0; c <= kCosines; ++c) {
+      at[c] = {};
+      forEachMirror(facets, seenFrom(c, kCosines), EvenRow::kSamples,
+                    [&](Real share, Real cosine) { add(at[c], kWeights.at(cosine), share); });
+      add(mean, at[c], meanWeight(c, kCosines));
     }
   }
   static Between width(Real width) { return {std::sqrt(width) / kMostRoughness, kWidths}; }
@@ -352,17 +377,17 @@ FacetShares facetShares(const Microfacets& facets, const Vec3& eye) {
   const bool even = facets.x == facets.y;
   const Real width =
       even ? facets.x : std::sqrt(facets.x * facets.x * cos2 + facets.y * facets.y * (1 - cos2));
-  const auto& t = table<ShareTable>(facets.kind);
-  const Between w = t.width(width), c(std::sqrt(max(0, eye.z)), t.kCosines);
-  const auto row = [&](int i) { return lerp(c.share, t.at[i][c.low], t.at[i][c.low + 1]); };
+  const auto& t = table<ShareRow>(facets.kind);
+  const Between w = ShareRow::width(width), c(std::sqrt(max(0, eye.z)), ShareRow::kCosines);
+  const auto row = [&](int i) { return lerp(c.share, t[i].at[c.low], t[i].at[c.low + 1]); };
   const FacetShares shares = lerp(w.share, row(w.low), row(w.low + 1));
   return even ? shares : scaledTo(microfacetAlbedo(facets, eye).white, shares);
 }
 
 FacetShares meanFacetShares(const Microfacets& facets) {
-  const auto& t = table<ShareTable>(facets.kind);
-  const Between w = t.width(std::sqrt(facets.x * facets.y));
-  const FacetShares shares = lerp(w.share, t.mean[w.low], t.mean[w.low + 1]);
+  const auto& t = table<ShareRow>(facets.kind);
+  const Between w = ShareRow::width(std::sqrt(facets.x * facets.y));
+  const FacetShares shares = lerp(w.share, t[w.low].mean, t[w.low + 1].mean);
   return facets.x == facets.y ? shares : scaledTo(meanMicrofacetAlbedo(facets).white, shares);
 }
 

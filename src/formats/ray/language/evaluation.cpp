@@ -152,7 +152,7 @@ Value Evaluator::called(std::uint32_t call, const Found& found, const Scoped& sc
   const std::uint32_t parameters = binding.node + 2, body = after(parameters);
   const std::shared_ptr<Scope> own =
       bound(call, binding.name, parameters, children(call + 2), scope, found.scope, body);
-  const FrameScope frame(*this, call, callText(binding.name, *own));
+  const FrameScope frame(*this, call, binding.name, *own);
   return eval(body, own);
 }
 
@@ -200,13 +200,6 @@ std::shared_ptr<Scope> Evaluator::bound(std::uint32_t call, std::string_view nam
     own->bindings.push_back({names[i], wanted[i], std::move(values[i])});
   }
   return own;
-}
-
-std::string Evaluator::callText(std::string_view name, const Scope& own) {
-  std::string text = std::string(name) + "(";
-  for (const Binding& binding : own.bindings)
-    text += (text.ends_with('(') ? "" : ", ") + std::string(binding.name) + " = " + shown(*binding.value);
-  return text + ")";
 }
 
 Value Evaluator::listOf(std::uint32_t tuple, const Scoped& scope) {

@@ -32,8 +32,6 @@ class Evaluator : protected Names {
   std::shared_ptr<Scope> bound(std::uint32_t call, std::string_view name, std::uint32_t parameters,
                                const std::vector<std::uint32_t>& arguments, const Scoped& scope,
                                const Scoped& home, std::uint32_t body);
-  /// A call with the values of its parameters, for messages.
-  static std::string callText(std::string_view name, const Scope& own);
   /// The elements that a loop goes through; fails at its `source` if there are none.
   const List& needElements(const Value& value, List& letters, std::uint32_t source) const;
   bool isGrouping(std::uint32_t tuple) const {

@@ -77,11 +77,11 @@ class Expander : Evaluator {
   }
   /// Names the loop or call of which most was made.
   [[noreturn]] void tooMany() const {
-    std::map<std::uint32_t, std::pair<std::size_t, std::string>> made;
-    for (const Syntax::Frame& frame : frames_) {
-      auto& entry = made[frame.offset];
+    std::map<std::uint32_t, std::pair<std::size_t, std::size_t>> made;  // how many, and the last
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      auto& entry = made[frames_[i].offset];
       ++entry.first;
-      entry.second = frame.what;
+      entry.second = i;
     }
     const auto most = std::max_element(made.begin(), made.end(), [](const auto& a, const auto& b) {
       return a.second.first < b.second.first;
@@ -91,7 +91,7 @@ class Expander : Evaluator {
     if (most != made.end()) {
       place = syntax_.place(most->first);
       hint = "this was done " + std::to_string(most->second.first) + " times, the last one with " +
-             most->second.second +
+             whatOf(most->second.second) +
              "; rows { } places millions of copies from a file of numbers, and a name for a group of objects "
              "makes each copy a few numbers";
     }
@@ -299,7 +299,7 @@ class Expander : Evaluator {
                   const std::vector<std::uint32_t>& arguments, const Scoped& scope, std::uint32_t block) {
     const std::uint32_t parameters = binding.node + 2, body = after(parameters);
     const std::shared_ptr<Scope> own = bound(call, binding.name, parameters, arguments, scope, home, body);
-    const FrameScope frame(*this, call, callText(binding.name, *own));
+    const FrameScope frame(*this, call, callText(binding.name, *own, own->bindings.size()));
     const std::size_t group = open(likeness(call, Kind::block), call);
     if (block) overriding(block, scope);
     declare(body, *own);

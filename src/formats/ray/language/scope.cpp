@@ -167,7 +167,18 @@ Names::FrameScope::FrameScope(Names& names, std::uint32_t at, std::string what)
   ++names_.calls_;
   names_.frames_.push_back(
       {static_cast<std::uint32_t>(names_.result_.size()), 0, names_.node(at).offset, std::move(what)});
-  names_.active_.push_back(index_);
+  names_.active_.push_back(this);
+}
+
+Names::FrameScope::FrameScope(Names& names, std::uint32_t at, std::string_view function, const Scope& own)
+    : FrameScope(names, at, std::string()) {
+  function_ = function;
+  own_ = &own;
+  parameters_ = own.bindings.size();
+}
+
+std::string Names::FrameScope::what() const {
+  return own_ ? callText(function_, *own_, parameters_) : names_.frames_[index_].what;
 }
 
 Names::FrameScope::~FrameScope() {
@@ -175,7 +186,24 @@ Names::FrameScope::~FrameScope() {
   names_.active_.pop_back();
   Syntax::Frame& frame = names_.frames_[index_];
   frame.end = static_cast<std::uint32_t>(names_.result_.size());
-  if (frame.end == frame.first && index_ + 1 == names_.frames_.size()) names_.frames_.pop_back();
+  if (frame.end == frame.first && index_ + 1 == names_.frames_.size())
+    names_.frames_.pop_back();
+  else if (own_)
+    frame.what = what();
+}
+
+std::string Names::callText(std::string_view name, const Scope& own, std::size_t parameters) {
+  std::string text = std::string(name) + "(";
+  for (std::size_t i = 0; i < parameters; ++i)
+    text += (i == 0 ? "" : ", ") + std::string(own.bindings[i].name) + " = " +
+            trace::rayfile::shown(*own.bindings[i].value);
+  return text + ")";
+}
+
+std::string Names::whatOf(std::size_t frame) const {
+  const auto active = std::find_if(active_.begin(), active_.end(),
+                                   [&](const FrameScope* scope) { return scope->index() == frame; });
+  return active == active_.end() ? frames_[frame].what : (*active)->what();
 }
 
 std::string Names::chain() const {
@@ -183,10 +211,12 @@ std::string Names::chain() const {
   std::string text;
   std::size_t shown = 0;
   for (auto active = active_.rbegin(); active != active_.rend() && shown < kMostFrames; ++shown) {
-    const Syntax::Frame& frame = frames_[*active];
+    const FrameScope& innermost = **active;
+    const Syntax::Frame& frame = frames_[innermost.index()];
     std::size_t same = 0;
-    while (active != active_.rend() && frames_[*active].offset == frame.offset) ++active, ++same;
-    text += (text.empty() ? "in " : ", in ") + frame.what + " at " + placeText(syntax_.place(frame.offset));
+    while (active != active_.rend() && frames_[(*active)->index()].offset == frame.offset) ++active, ++same;
+    text +=
+        (text.empty() ? "in " : ", in ") + innermost.what() + " at " + placeText(syntax_.place(frame.offset));
     if (same > 1) text += " and " + std::to_string(same - 1) + " more there";
   }
   return text;

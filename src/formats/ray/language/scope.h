@@ -123,14 +123,26 @@ class Names {
   class FrameScope {
    public:
     FrameScope(Names& names, std::uint32_t at, std::string what);
+    /// For a function. Its text is made only where a message or a node needs it.
+    FrameScope(Names& names, std::uint32_t at, std::string_view function, const Scope& own);
     ~FrameScope();
     FrameScope(const FrameScope&) = delete;
     FrameScope& operator=(const FrameScope&) = delete;
 
+    std::size_t index() const { return index_; }
+    std::string what() const;
+
    private:
     Names& names_;
     const std::size_t index_;
+    std::string_view function_{};
+    const Scope* own_ = nullptr;
+    std::size_t parameters_ = 0;
   };
+  /// "gear(teeth = 12)", of the first `parameters` names of the call's scope.
+  static std::string callText(std::string_view name, const Scope& own, std::size_t parameters);
+  /// The text of a frame.
+  std::string whatOf(std::size_t frame) const;
   /// Thrown by fail(). `deep`: a recursion without an end, of which no part is made.
   struct Failure {
     Syntax::Mistake mistake;
@@ -158,7 +170,7 @@ class Names {
   InputFiles& inputs_;
   std::vector<Node> result_;  // the tree that is being made
   std::vector<Syntax::Frame> frames_;
-  std::vector<std::size_t> active_;               // frames that are being made
+  std::vector<const FrameScope*> active_;         // frames that are being made
   std::map<std::uint32_t, std::uint32_t> roots_;  // roots of included files, by their statements
   int calls_ = 0;
 
